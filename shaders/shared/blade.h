@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// A blade of grass: its record in the set, its curve and its outline (J1, J8). texgen rasterises this outline into the
+// volume and the near tier tessellates it, so that both tiers show the same blade.
+#ifndef SWARD_SHARED_BLADE_H
+#define SWARD_SHARED_BLADE_H
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// One blade of a patch, in its rest pose (J1), 64 bytes. Metres; y up. rank and seed are (n + 0.5) / 256, n = 0..255,
+// so that an 8-bit texel holds them without loss.
+struct BladeRecord {
+    vec4 root;  // x, z within the patch [0, side); rank; seed
+    vec4 v1;    // middle control point relative to the root; w: half width at the root
+    vec4 v2;    // tip relative to the root; w: stiffness, 0 limp .. 1 stiff
+    vec4 shape; // facing azimuth: width direction is (cos, 0, sin); curve length; droop; unused
+};
+#ifdef __cplusplus
+static_assert(sizeof(BladeRecord) == 64);
+#endif
+
+// Point of the quadratic Bezier (root at 0) at parameter v (J8, c).
+SHARED_FN vec3 blade_curve(vec3 v1, vec3 v2, float v) {
+    return 2.0f * v * (1.0f - v) * v1 + v * v * v2;
+}
+
+// Unit tangent at v (J8, t0).
+SHARED_FN vec3 blade_tangent(vec3 v1, vec3 v2, float v) {
+    return normalize(mix(v1, v2 - v1, v) + vec3(0.0f, 1e-6f, 0.0f));
+}
+
+// Unit width direction (J8, t1).
+SHARED_FN vec3 blade_width_direction(float facing) {
+    return vec3(cos(facing), 0.0f, sin(facing));
+}
+
+// Quadratic outline (J8): where u in [0, 1] across the blade lands between its left (0) and right (1) rim at v.
+// Written about the middle, u' = 1/2 + (u - 1/2)(1 - v^2): the printed u - u v^2 has the same width but pins the left rim.
+SHARED_FN float blade_outline(float u, float v) {
+    return 0.5f + (u - 0.5f) * (1.0f - v * v);
+}
+
+// 8-bit number of a rank or seed, and back: exact on both sides.
+SHARED_FN float unorm8_to_unit(float texel) {
+    return (floor(texel * 255.0f + 0.5f) + 0.5f) / 256.0f;
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where things lie in a grass set's texture arrays, and how a texel is coded. Two RGBA8 planes an image:
+//   plane 0 "id":    R coverage 0..1 of the texel by its blade, G rank, B seed, A place along the blade v (0 root .. 1 tip)
+//   plane 1 "shape": RG tangent x, z as t * 0.5 + 0.5 (its y is >= 0), BA offset from the texel's centre (on the layer's or
+//                    slice's own plane) to the blade's root in x, z: o / offset_range * 0.5 + 0.5
+// Images are sampled nearest: a texel belongs to one blade. In layers u runs along +x and v along +z; in x-slices (planes
+// x = const) u runs along +z, in z-slices (planes z = const) along +x, and v up from the ground to the canopy's top.
+#ifndef SWARD_SHARED_GRASS_LAYOUT_H
+#define SWARD_SHARED_GRASS_LAYOUT_H
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kPlanes = 2;
+SHARED_CONST int kPlaneId = 0;
+SHARED_CONST int kPlaneShape = 1;
+SHARED_CONST int kAxisX = 0; // slices across x: planes x = const
+SHARED_CONST int kAxisZ = 1;
+
+// Array index of layer `layer` (0 lowest) of `count`.
+SHARED_FN int layer_index(int variant, int layer, int count, int plane) {
+    return (variant * count + layer) * kPlanes + plane;
+}
+
+// Array index of slice `slice` of `count` on `axis`.
+SHARED_FN int slice_index(int variant, int axis, int slice, int count, int plane) {
+    return ((variant * 2 + axis) * count + slice) * kPlanes + plane;
+}
+
+SHARED_FN vec3 decode_tangent(vec2 rg) {
+    vec2 xz = rg * 2.0f - 1.0f;
+    return vec3(xz.x, sqrt(max(1.0f - dot(xz, xz), 0.0f)), xz.y);
+}
+
+SHARED_FN vec2 decode_offset(vec2 ba, float offset_range) {
+    return (ba * 2.0f - 1.0f) * offset_range;
+}
+
+// How a species looks to the shading function, in linear reflectance. 64 bytes.
+struct GrassAppearance {
+    vec4 root; // rgb at the root; a: share of dry blades 0..1
+    vec4 tip;  // rgb at the tip; a: variation of hue and value between blades 0..1
+    vec4 dry;  // rgb of a dry blade; a: translucency 0..1
+    vec4 light; // kd, pd (diffuse weight, power), ks, ps (specular weight, power) of G4
+};
+#ifdef __cplusplus
+static_assert(sizeof(GrassAppearance) == 64);
+#endif
+
+SHARED_END
+#endif

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "scene/heightfield.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+
+namespace sward::assets {
+
+/// Elevation of a scene: GeoTIFF or anything GDAL reads locally (its CRS turned into a local east-north-up frame centred on
+/// the raster), .hgt, 16-bit PNG (height_m gives metres at 0 and full scale), float TIFF/EXR (size_m where it carries no
+/// georeference). Voids are filled from their neighbours. Throws Error: kIo missing or unreadable; kBadInput wrong format,
+/// NaN, all nodata, fewer than 2 x 2 posts; kOverLimit over docs/limits. The message names the file.
+[[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
+
+/// Density mask: PNG, TIFF or EXR; first channel, 0..1. Throws like load_elevation.
+[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path);
+
+/// 8-bit sRGB PNG. `metadata` is not written: the same picture gives the same bytes. Throws Error(kIo).
+void write_png(const std::filesystem::path& path, const scene::Picture& picture);
+/// Half-float (colour) and float (everything else) EXR, zip-compressed, named channels. Throws Error(kIo).
+void write_exr(const std::filesystem::path& path, const scene::Image& image);
+
+/// One line with the versions of the heavy libraries, for `sward info`.
+[[nodiscard]] std::string library_versions();
+
+} // namespace sward::assets

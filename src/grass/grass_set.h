@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "shared/blade.h"
+#include "shared/grass_layout.h"
+
+namespace sward::grass {
+
+/// RGBA8 texture array with mips, the content of a KTX2 file. Mip m is max(1, width >> m) x max(1, height >> m) x layers
+/// texels, layer-major, row-major, 4 bytes a texel.
+struct TextureArray {
+    int width = 0;
+    int height = 0;
+    int layers = 0;
+    std::vector<std::vector<std::uint8_t>> mips;
+};
+
+/// One level of the far tier: level k has texels 2^k as wide as level 0's and about half the layers and slices of level
+/// k - 1, each image showing the blades of its whole (thicker) slab. Indices: shaders/shared/grass_layout.h.
+struct FarLevel {
+    int layer_count = 0;           ///< shells; layer i is the slab [i, i + 1] * canopy / layer_count, drawn at its middle
+    int slice_count = 0;           ///< per axis and patch side; slice i is the slab [i, i + 1] * side / slice_count
+    TextureArray layers;           ///< variants * layer_count * 2 planes, (size >> k) square
+    TextureArray slices;           ///< variants * 2 axes * slice_count * 2 planes, (size >> k) x rows
+};
+
+/// Appearance of the whole canopy seen from far away, by view elevation (rays through the blades).
+struct FarRow {
+    float elevation_deg = 90;
+    float coverage = 0;    ///< share of rays that meet a blade before the ground
+    float height = 0;      ///< mean height of the hits, 0 ground .. 1 top of the canopy
+    float along = 0;       ///< mean place along the blade of the hits, 0 root .. 1 tip
+};
+
+/// A grass set in memory: what texgen writes and the renderer reads (docs/texgen.md).
+struct GrassSet {
+    std::string name;
+    std::uint64_t seed = 0;
+    float side_m = 2;            ///< the patch tiles the plane with this period
+    float canopy_m = 0;          ///< top of the volume above the ground
+    float offset_range_m = 0;    ///< range of the root offsets in the shape plane
+    int variants = 0;            ///< agree along their edges: any may stand beside any
+    float density_per_m2 = 0;    ///< blades
+    std::vector<shared::BladeRecord> blades;    ///< variant-major; inside a variant by rising rank
+    std::vector<std::uint32_t> variant_begin;   ///< variants + 1 offsets into blades
+    std::vector<FarLevel> levels;               ///< at least 1
+    std::vector<FarRow> far;                    ///< falling elevation
+    shared::GrassAppearance appearance{};
+};
+
+/// Reads a set's directory. Every file's SHA-256 is checked against set.json before it is parsed (volume.vdb is not read).
+/// Throws Error: kIo missing, kBadInput damaged or of another format version, kOverLimit.
+[[nodiscard]] GrassSet read_grass_set(const std::filesystem::path& directory);
+
+} // namespace sward::grass

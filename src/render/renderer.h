@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "grass/grass_set.h"
+#include "scene/heightfield.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+
+namespace sward::render {
+
+/// Which tiers draw. Reference: every blade as geometry out to `reference_distance_m`, supersampled, bare ground beyond.
+enum class Tiers { kAll, kBlades, kShells, kReference };
+/// How a blade changes tier. kRank ships; the others exist for tests: kOff draws both tiers whole (double), kHard swaps all
+/// blades at one distance, kFade dissolves every blade by the same pixel dither.
+enum class HandoverMode { kRank, kOff, kHard, kFade };
+
+struct FrameSettings {
+    int width = 1280;
+    int height = 720;
+    int samples = 4;            ///< MSAA; memory and fill cost grow with it. 1, 2 or 4
+    Tiers tiers = Tiers::kAll;
+    HandoverMode handover = HandoverMode::kRank;
+    bool terrain = true, blades = true, shells = true, slices = true, sky = true; ///< switches of the panel
+    int force_far_level = -1;   ///< >= 0: only this level of the far tier, at every distance (tests)
+    double blades_distance_m = 200;    ///< how far --tiers blades draws geometry; cost grows with its square
+    double reference_distance_m = 60;  ///< likewise for the reference
+    int reference_grid = 4;     ///< n x n jittered frames are averaged; cost grows with n^2
+    float exposure = 1.0f;
+    bool aov = false;           ///< also fill the AOV targets; costs about a third more fill
+};
+
+/// One view of one frame. Poses are above the datum here (Renderer::above_datum resolves agl).
+struct View {
+    scene::Pose pose;
+    scene::Pose lod_pose;  ///< where tier selection measures distances from; equal to pose but in tests
+    double time_s = 0;
+    std::uint32_t frame_index = 0;
+};
+
+struct PassTime {
+    std::string name;
+    double gpu_ms = 0;
+    double cpu_ms = 0;
+};
+
+struct FrameStats {
+    std::vector<PassTime> passes;  ///< in the order of frame.cpp
+    std::uint64_t blades_considered = 0; ///< tested by the cull pass
+    std::uint64_t blades_drawn = 0;
+    std::uint64_t shell_fragments = 0;   ///< that passed every test and were written
+    std::uint64_t slice_fragments = 0;
+    std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive
+};
+
+/// Inputs of a renderer, loaded by the host (the core reads no heavy formats).
+struct World {
+    scene::Scene scene;
+    scene::Heightfield elevation;
+    scene::DensityMask mask; ///< width 0: the slope rule
+    grass::GrassSet grass;
+};
+
+/// The library's face. Needs a current GL 4.5 core context at construction, in every call and at destruction; owns no
+/// window and no thread. Throws base::Error (kNoGpu for shader and context trouble).
+class Renderer {
+public:
+    explicit Renderer(World world);
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    /// Draws a frame into Renderer's own targets.
+    void draw(const View& view, const FrameSettings& settings);
+    /// Copies the tone-mapped frame into the framebuffer `fbo` (0: the window's), bottom-left at `x`, `y`.
+    void present(std::uint32_t fbo, int x, int y);
+
+    /// The frame just drawn, tone-mapped, 8-bit sRGB. Waits for the GPU.
+    [[nodiscard]] scene::Picture read_picture();
+    /// The frame just drawn as linear floats. `names` out of color, depth, tier, coverage, tangent, normal, rank; needs
+    /// settings.aov for all but color and depth. Channel names: docs/commands.md.
+    [[nodiscard]] scene::Image read_aovs(const std::vector<std::string>& names);
+    /// Counts and times of the frame just drawn. Waits for the GPU.
+    [[nodiscard]] FrameStats stats();
+
+    /// Height of the ground surface that is drawn, metres above the datum, at local x, z (clamped to the terrain).
+    [[nodiscard]] double ground_height(double x, double z) const;
+    /// The pose with its height above the datum (agl resolved).
+    [[nodiscard]] scene::Pose above_datum(const scene::Pose& pose) const;
+    /// Wind (m/s, east and south) at a point and time: the answer that every shader gets.
+    [[nodiscard]] glm::dvec2 wind_at(double x, double z, double time_s) const;
+
+    /// Recompiles programs whose source changed; returns messages of those that failed (the old program stays).
+    [[nodiscard]] std::vector<std::string> reload_shaders();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace sward::render

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace sward::scene {
+
+/// A pose as files and options write it: metres and degrees. yaw 0 looks north (-z), positive to the east; pitch
+/// positive looks up.
+struct Pose {
+    glm::dvec3 position{0, 1.7, 0};
+    double yaw_deg = 0;
+    double pitch_deg = 0;
+    bool agl = true;     ///< position.y is above the ground; else above the datum
+    double fov_deg = 60; ///< vertical
+};
+
+struct PathKey {
+    double t_s = 0;
+    glm::dvec3 position{0, 0, 0};
+    double yaw_deg = 0;
+    double pitch_deg = 0;
+};
+
+/// Keys in rising time; Catmull-Rom in position, shortest turn in yaw; held at both ends.
+struct Path {
+    std::vector<PathKey> keys;
+    bool agl = true;
+    double fov_deg = 60;
+};
+[[nodiscard]] Pose sample_path(const Path& path, double time_s);
+
+struct TerrainSpec {
+    std::filesystem::path elevation; ///< resolved against the scene's directory
+    std::optional<glm::dvec2> size_m;
+    std::optional<glm::dvec2> height_m;
+    std::filesystem::path mask; ///< empty: the slope rule
+    double detail_m = 0.5;      ///< amplitude of procedural relief; 0 = none
+    std::filesystem::path surface;
+};
+
+struct GrassSpec {
+    std::string set = "meadow.toml"; ///< as written; the app resolves it to a set directory
+    double density = 1.0;            ///< scale of the set's blades per square metre, 0..1
+};
+
+struct SunSpec {
+    double azimuth_deg = 135; ///< clockwise from north, where the sun stands
+    double elevation_deg = 35;
+};
+
+struct WindArrow {
+    std::string id, parent;
+    glm::dvec2 root{0, 0}, tip{0, 0};
+    double strength_ms = 0;
+    double radius_m = 1;
+};
+
+struct WindObstacle {
+    enum class Kind { kBox, kCircle, kMesh } kind = Kind::kCircle;
+    std::vector<double> numbers; ///< box: x, z, width, depth, yaw_deg; circle: x, z, radius
+    std::filesystem::path mesh;
+};
+
+struct WindSpec {
+    double speed_ms = 4;
+    double direction_deg = 270; ///< where the wind comes from, as in aviation
+    double gust = 0.4;          ///< 0 steady .. 1 violent
+    int seed = 7;
+    int cells = 1000;
+    double cell_m = 0.5;
+    double step_s = 1.0 / 60.0;
+    double confinement = 0.3;
+    double viscosity_m2s = 0;
+    double dissipation_per_s = 0;
+    std::vector<WindArrow> arrows;
+    std::vector<WindObstacle> obstacles;
+};
+
+struct ObjectSpec {
+    std::string kind; ///< sphere, mesh, vehicle, rotor
+    double radius_m = 0.5;
+    std::filesystem::path mesh;
+    glm::dvec3 position{0, 0, 0};
+    double yaw_deg = 0;
+    std::string path; ///< name of a [path.*], or empty
+};
+
+/// Overrides of the tiers' distances; unset means by projected size.
+struct LodSpec {
+    std::optional<double> handover_start_m, handover_end_m; ///< band from blades to shells
+    std::optional<double> far_end_m;                        ///< where the last shells and slices end
+};
+
+struct Scene {
+    std::filesystem::path file;
+    TerrainSpec terrain;
+    GrassSpec grass;
+    SunSpec sun;
+    WindSpec wind;
+    std::vector<ObjectSpec> objects;
+    std::map<std::string, Pose> cameras;
+    std::map<std::string, Path> paths;
+    LodSpec lod;
+};
+
+/// Reads a scene file (TOML, docs/scene.md). Throws Error that names file, line, key, found and expected; an unknown key
+/// names the nearest known one. Files that the scene names are not opened here.
+[[nodiscard]] Scene load_scene(const std::filesystem::path& file);
+
+/// "x,y,z,yaw,pitch" (y above the ground) or "abs:x,y,z,yaw,pitch" (y above the datum), in the C locale whatever the
+/// environment says. Throws Error(kUsage) naming `option`.
+[[nodiscard]] Pose parse_pose(const std::string& text, const std::string& option);
+/// The same form, for --camera: parse_pose(format_pose(p)) == p to a millimetre and a thousandth of a degree.
+[[nodiscard]] std::string format_pose(const Pose& pose);
+
+} // namespace sward::scene
