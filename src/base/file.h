@@ -30,7 +30,8 @@ public:
     PendingOutput(const PendingOutput&) = delete;
     PendingOutput& operator=(const PendingOutput&) = delete;
     [[nodiscard]] const std::filesystem::path& path() const { return temporary_; } ///< write here
-    /// fsync, then rename onto the final name (a directory that stands there is swapped out and removed).
+    /// fsync, then rename onto the final name (a directory that stands there is swapped out and removed; one that holds
+    /// directories of its own was not written by us, and is refused by the constructor).
     void commit();
 
 private:
@@ -44,8 +45,9 @@ private:
 void install_signal_cleanup();
 
 /// Throws Error(kIo) naming `path` unless a file (or directory) can be created under that name: parent exists, is a
-/// directory and writable, and the name is not itself a directory (for a file). For checks before long work.
-void require_writable(const std::filesystem::path& path);
+/// directory and writable, and what stands there already is of the same kind. For checks before long work.
+void require_writable(const std::filesystem::path& path,
+                      PendingOutput::Kind kind = PendingOutput::Kind::kFile);
 
 /// Directory of the running executable.
 [[nodiscard]] std::filesystem::path executable_directory();

@@ -1,1 +1,145 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "base/log.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace sward::base {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t kMessageLimit = 16384;
+constexpr auto kRedrawEvery = std::chrono::milliseconds(100);
+constexpr std::size_t kBarWidth = 30;
+
+std::atomic<Verbosity> g_verbosity{Verbosity::kNormal};
+std::mutex g_mutex; // guards stderr and g_bar
+std::string g_bar;  // the bar that stands on the terminal's last line, or empty
+
+/// Plain write(2): no buffer that a crash could lose, no locale.
+void write_stderr(std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t n = ::write(STDERR_FILENO, text.data(), text.size());
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n <= 0)
+            return; // nowhere left to complain
+        text.remove_prefix(static_cast<std::size_t>(n));
+    }
+}
+
+void write_line(std::string_view prefix, std::string_view message) {
+    const std::string line = fmt::format("{}{}\n", prefix, printable(message, kMessageLimit));
+    const std::lock_guard lock(g_mutex);
+    write_stderr(g_bar.empty() ? line : "\r\x1b[K" + line + g_bar);
+}
+
+} // namespace
+
+void set_verbosity(Verbosity verbosity) {
+    g_verbosity = verbosity;
+}
+
+Verbosity verbosity() {
+    return g_verbosity;
+}
+
+void log_error(std::string_view message) {
+    write_line("error: ", message);
+}
+
+void log_warning(std::string_view message) {
+    write_line("warning: ", message);
+}
+
+void log_info(std::string_view message) {
+    if (verbosity() != Verbosity::kQuiet)
+        write_line("", message);
+}
+
+void log_debug(std::string_view message) {
+    if (verbosity() == Verbosity::kVerbose)
+        write_line("", message);
+}
+
+struct Progress::State {
+    std::string title;
+    std::size_t total = 0;
+    std::size_t done = 0;
+    std::size_t tenths_told = 0;
+    bool terminal = false;
+    Clock::time_point start = Clock::now();
+    Clock::time_point drawn{};
+
+    void draw(bool finished);
+    void tell_tenths();
+};
+
+void Progress::State::draw(bool finished) {
+    const Clock::time_point now = Clock::now();
+    if (!finished && now - drawn < kRedrawEvery)
+        return;
+    drawn = now;
+    const double share = static_cast<double>(done) / static_cast<double>(total);
+    const double elapsed_s = std::chrono::duration<double>(now - start).count();
+    const auto full = std::min(kBarWidth, static_cast<std::size_t>(share * kBarWidth));
+    const std::string left =
+        done > 0 ? fmt::format("{:.0f} s left", elapsed_s * (1 / share - 1)) : std::string();
+    g_bar = fmt::format("{} [{}{}] {:3.0f} % {}", title, std::string(full, '#'),
+                        std::string(kBarWidth - full, '.'), 100 * share, left);
+    write_stderr("\r\x1b[K" + g_bar);
+}
+
+void Progress::State::tell_tenths() {
+    const std::size_t tenths = done * 10 / total;
+    if (tenths <= tenths_told)
+        return;
+    tenths_told = tenths;
+    write_stderr(fmt::format("{}: {} %\n", title, tenths * 10));
+}
+
+Progress::Progress(std::string title, std::size_t total) : state_(nullptr) {
+    if (verbosity() == Verbosity::kQuiet || total == 0)
+        return;
+    state_ = new State;
+    state_->title = printable(title);
+    state_->total = total;
+    state_->terminal = ::isatty(STDERR_FILENO) == 1;
+    const std::lock_guard lock(g_mutex);
+    if (state_->terminal)
+        state_->draw(true);
+}
+
+Progress::~Progress() {
+    if (!state_)
+        return;
+    const std::lock_guard lock(g_mutex);
+    if (state_->terminal) {
+        state_->draw(true);
+        g_bar.clear();
+        write_stderr("\n");
+    }
+    delete state_;
+}
+
+void Progress::advance(std::size_t steps) {
+    if (!state_)
+        return;
+    const std::lock_guard lock(g_mutex);
+    state_->done = std::min(state_->total, state_->done + steps);
+    if (state_->terminal)
+        state_->draw(false);
+    else
+        state_->tell_tenths();
+}
+
+} // namespace sward::base

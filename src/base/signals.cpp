@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// A handler may do next to nothing, so it hands the signal to a thread that removes the temporaries
+// and ends the process.
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <thread>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/pending_registry.h"
+
+namespace sward::base {
+namespace {
+
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
+
+std::atomic<int> g_signals{0};
+std::array<int, 2> g_pipe{-1, -1};
+
+extern "C" void on_signal(int signal) {
+    const int saved = errno;
+    if (g_signals.fetch_add(1) > 0)
+        ::_exit(128 + signal);
+    const auto number = static_cast<unsigned char>(signal);
+    if (::write(g_pipe[1], &number, 1) != 1)
+        ::_exit(128 + signal);
+    errno = saved;
+}
+
+void wait_for_signal() {
+    unsigned char number = 0;
+    while (::read(g_pipe[0], &number, 1) != 1)
+        if (errno != EINTR)
+            return;
+    remove_all_pending();
+    ::_exit(128 + number);
+}
+
+} // namespace
+
+void install_signal_cleanup() {
+    static std::atomic<bool> installed{false};
+    if (installed.exchange(true) || ::pipe2(g_pipe.data(), O_CLOEXEC) != 0)
+        return;
+    std::thread(wait_for_signal).detach();
+    struct sigaction action{};
+    action.sa_handler = on_signal;
+    action.sa_flags = SA_RESTART;
+    ::sigemptyset(&action.sa_mask);
+    for (const int signal : kSignals) {
+        struct sigaction old{};
+        ::sigaction(signal, nullptr, &old);
+        if (old.sa_handler != SIG_IGN) // nohup asked for that
+            ::sigaction(signal, &action, nullptr);
+    }
+    // Past the size limit of `ulimit -f` a write shall fail, not kill: the error names the file.
+    ::signal(SIGXFSZ, SIG_IGN);
+    ::signal(SIGPIPE, SIG_IGN);
+}
+
+} // namespace sward::base
