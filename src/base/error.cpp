@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/error.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <numeric>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -38,6 +41,24 @@ CodePoint decode(std::string_view text) {
     if (value < kSmallest[bytes] || value > 0x10FFFF || (value >= 0xD800 && value < 0xE000))
         return {};
     return {value, bytes};
+}
+
+/// Optimal string alignment distance (Damerau 1964, without edits inside a swapped pair).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> before(b.size() + 1), row(b.size() + 1), last(b.size() + 1);
+    std::iota(last.begin(), last.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replace = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, replace});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        before.swap(last);
+        last.swap(row);
+    }
+    return last[b.size()];
 }
 
 /// Would move the cursor, end the line or reorder the text around it.
@@ -93,6 +114,21 @@ Error input_error(ExitCode code, const std::filesystem::path& file, int line, st
     if (!expected.empty())
         message += fmt::format("{} expected {}", found.empty() ? ":" : ",", expected);
     return {code, message};
+}
+
+std::string nearest_name(std::string_view name, std::span<const std::string> known) {
+    constexpr std::size_t kLongest =
+        64; // a longer name is no slip of the finger; the distance is quadratic
+    std::string best;
+    std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
+    if (name.size() > kLongest)
+        return best;
+    for (const std::string& candidate : known) {
+        const std::size_t distance = edit_distance(name, candidate);
+        if (distance < least)
+            least = distance, best = candidate;
+    }
+    return best;
 }
 
 } // namespace sward::base

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -36,5 +37,9 @@ private:
 /// "<file>[:line]: <what>: found <found>, expected <expected>" as an Error. `line` 0 leaves the line out.
 [[nodiscard]] Error input_error(ExitCode code, const std::filesystem::path& file, int line, std::string_view what,
                                 std::string_view found, std::string_view expected);
+
+/// The name in `known` that takes the fewest edits (insert, delete, replace, swap of two neighbours) from `name`; empty
+/// when none is within half its length. For messages about unknown keys and names.
+[[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
 } // namespace sward::base

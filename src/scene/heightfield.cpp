@@ -1,1 +1,141 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "scene/heightfield.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace sward::scene {
+namespace {
+
+constexpr std::int16_t kVoid = -32768;
+constexpr int kPosts3 = 1201; // 3 arc-seconds a post
+constexpr int kPosts1 = 3601; // 1 arc-second a post
+
+base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
+                std::string_view expected) {
+    return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
+}
+
+/// The tile's south-west corner from a name like N36W085.hgt.
+std::optional<Georeference> corner(const std::string& stem) {
+    if (stem.size() < 7)
+        return std::nullopt;
+    const auto upper = [](char c) {
+        return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    };
+    const char ns = upper(stem[0]), ew = upper(stem[3]);
+    int latitude = 0, longitude = 0;
+    const char* text = stem.data();
+    if ((ns != 'N' && ns != 'S') || (ew != 'E' && ew != 'W') ||
+        std::from_chars(text + 1, text + 3, latitude).ptr != text + 3 ||
+        std::from_chars(text + 4, text + 7, longitude).ptr != text + 7)
+        return std::nullopt;
+    if (latitude < 0 || latitude > 90 || longitude < 0 || longitude > 180)
+        return std::nullopt;
+    const Georeference place{ns == 'N' ? double(latitude) : -double(latitude),
+                             ew == 'E' ? double(longitude) : -double(longitude)};
+    if (place.latitude_deg >= 90) // the tile would lie past the pole
+        return std::nullopt;
+    return place;
+}
+
+/// Metres of one degree, east and north, at a latitude of the WGS 84 ellipsoid (its two radii of
+/// curvature).
+glm::dvec2 metres_per_degree(double latitude_deg) {
+    constexpr double kA = 6378137.0, kF = 1 / 298.257223563, kE2 = kF * (2 - kF);
+    const double radians = latitude_deg * std::numbers::pi / 180;
+    const double s = std::sin(radians), w = std::sqrt(1 - kE2 * s * s);
+    const double across = kA / w, along = kA * (1 - kE2) / (w * w * w);
+    return glm::dvec2(across * std::cos(radians), along) * (std::numbers::pi / 180);
+}
+
+} // namespace
+
+std::size_t fill_voids(int width, int height, std::vector<float>& metres) {
+    const auto at = [&](int x, int y) { return static_cast<std::size_t>(y) * width + x; };
+    /// The mean of the neighbours that have a height now, or NaN.
+    const auto around = [&](std::size_t post) {
+        const int x0 = static_cast<int>(post % width), y0 = static_cast<int>(post / width);
+        double sum = 0;
+        int count = 0;
+        for (int y = std::max(0, y0 - 1); y <= std::min(height - 1, y0 + 1); ++y)
+            for (int x = std::max(0, x0 - 1); x <= std::min(width - 1, x0 + 1); ++x)
+                if (const float h = metres[at(x, y)]; !std::isnan(h))
+                    sum += h, ++count;
+        return count > 0 ? static_cast<float>(sum / count)
+                         : std::numeric_limits<float>::quiet_NaN();
+    };
+
+    std::vector<std::size_t> ring;
+    for (std::size_t post = 0; post < metres.size(); ++post)
+        if (std::isnan(metres[post]) && !std::isnan(around(post)))
+            ring.push_back(post);
+    std::size_t filled = 0;
+    std::vector<float> heights;
+    while (!ring.empty()) {
+        // All of a ring from the heights outside it, then all at once: the order within the ring
+        // does not matter.
+        heights.clear();
+        for (const std::size_t post : ring)
+            heights.push_back(around(post));
+        for (std::size_t i = 0; i < ring.size(); ++i)
+            metres[ring[i]] = heights[i];
+        filled += ring.size();
+        std::vector<std::size_t> next;
+        for (const std::size_t post : ring) {
+            const int x0 = static_cast<int>(post % width), y0 = static_cast<int>(post / width);
+            for (int y = std::max(0, y0 - 1); y <= std::min(height - 1, y0 + 1); ++y)
+                for (int x = std::max(0, x0 - 1); x <= std::min(width - 1, x0 + 1); ++x)
+                    if (std::isnan(metres[at(x, y)]))
+                        next.push_back(at(x, y));
+        }
+        std::sort(next.begin(), next.end());
+        next.erase(std::unique(next.begin(), next.end()), next.end());
+        ring = std::move(next);
+    }
+    return filled;
+}
+
+Heightfield read_hgt(const std::filesystem::path& path) {
+    constexpr std::uint64_t kLargest = std::uint64_t{kPosts1} * kPosts1 * 2;
+    const std::vector<std::byte> bytes = base::read_file(path, kLargest);
+    const int side = bytes.size() == kLargest                             ? kPosts1
+                     : bytes.size() == std::size_t{kPosts3} * kPosts3 * 2 ? kPosts3
+                                                                          : 0;
+    if (side == 0)
+        throw bad(path, "not an .hgt tile", fmt::format("{} bytes", bytes.size()),
+                  fmt::format("{} or {} bytes", kPosts3 * kPosts3 * 2, kLargest));
+    const auto south_west = corner(path.stem().string());
+    if (!south_west)
+        throw bad(path, "name of an .hgt tile", base::printable(path.stem().native()),
+                  "a name like N36W085.hgt");
+
+    Heightfield field;
+    field.width = field.height = side;
+    field.origin = Georeference{south_west->latitude_deg + 0.5, south_west->longitude_deg + 0.5};
+    field.spacing_m = metres_per_degree(field.origin->latitude_deg) / double(side - 1);
+    field.metres.reserve(bytes.size() / 2);
+    for (std::size_t i = 0; i < bytes.size(); i += 2) {
+        const auto word = static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes[i]) << 8 |
+                                                     std::to_integer<unsigned>(bytes[i + 1]));
+        const auto metres = static_cast<std::int16_t>(word);
+        field.metres.push_back(metres == kVoid ? std::numeric_limits<float>::quiet_NaN()
+                                               : float(metres));
+    }
+    fill_voids(side, side, field.metres);
+    if (std::isnan(field.metres.front())) // one left over means that all are
+        throw bad(path, "no elevation", "voids (-32768) only", "heights");
+    return field;
+}
+
+} // namespace sward::scene

@@ -41,7 +41,11 @@ struct DensityMask {
 /// (WGS 84 radii). Voids (-32768) are filled from their nearest neighbours. Throws Error: kIo, kBadInput, kOverLimit.
 [[nodiscard]] Heightfield read_hgt(const std::filesystem::path& path);
 
-/// Raw little-endian float32 posts, row-major, beside a JSON header NAME.json
+/// Gives every NaN post the mean of its nearest neighbours that have a height, ring by ring from the rim of the hole
+/// inwards. Returns how many it filled; fills none where no post has a height.
+std::size_t fill_voids(int width, int height, std::vector<float>& metres);
+
+/// Raw little-endian float32 posts, row-major, beside a JSON header of the same name and extension .json
 /// {"width", "height", "spacing_m": [x, z]}: what the core build reads without GDAL. Throws like read_hgt.
 [[nodiscard]] Heightfield read_raw_elevation(const std::filesystem::path& path);
 

@@ -41,6 +41,8 @@ struct TerrainSpec {
     std::optional<glm::dvec2> size_m;
     std::optional<glm::dvec2> height_m;
     std::filesystem::path mask; ///< empty: the slope rule
+    /// Landcover: the mask's integer values -> density 0..1 (values not listed: 0). Empty: the mask is the density.
+    std::map<int, double> classes;
     double detail_m = 0.5;      ///< amplitude of procedural relief; 0 = none
     std::filesystem::path surface;
 };
@@ -115,7 +117,7 @@ struct Scene {
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
 
 /// "x,y,z,yaw,pitch" (y above the ground) or "abs:x,y,z,yaw,pitch" (y above the datum), in the C locale whatever the
-/// environment says. Throws Error(kUsage) naming `option`.
+/// environment says. Throws Error(kUsage) naming `option`. Ranges as in scene files.
 [[nodiscard]] Pose parse_pose(const std::string& text, const std::string& option);
 /// The same form, for --camera: parse_pose(format_pose(p)) == p to a millimetre and a thousandth of a degree.
 [[nodiscard]] std::string format_pose(const Pose& pose);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/scene.h"
+#include "scene/toml_reader.h"
+
+namespace sward::scene {
+
+/// One function a section of the scene file; each refuses the keys it does not know. docs/scene.md
+/// is their table.
+void read_terrain(TableReader table, TerrainSpec& terrain);
+void read_grass(TableReader table, GrassSpec& grass);
+void read_sun(TableReader table, SunSpec& sun);
+void read_wind(TableReader table, WindSpec& wind);
+void read_lod(TableReader table, LodSpec& lod);
+[[nodiscard]] Pose read_camera(TableReader table);
+[[nodiscard]] Path read_path(TableReader table);
+/// `paths` are the scene's: an object that follows one must name one that exists.
+[[nodiscard]] ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& paths);
+
+} // namespace sward::scene

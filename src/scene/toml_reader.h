@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <toml++/toml.h>
+
+#include "base/error.h"
+#include "scene/ranges.h"
+
+namespace sward::scene {
+
+/// One table of a TOML file. Asking for a key declares it, so finish() can refuse every key that
+/// nobody asked for. A key that is absent leaves its target as it is. Everything throws base::Error
+/// with file, line, key, found and expected.
+class TableReader {
+public:
+    /// `name` is the table's dotted name in messages, empty for the whole file.
+    TableReader(const toml::table& table, std::filesystem::path file, std::string name);
+
+    bool number(const char* key, double& value, const Range& range);
+    bool number(const char* key, std::optional<double>& value, const Range& range);
+    bool integer(const char* key, int& value, int low, int high);
+    bool boolean(const char* key, bool& value);
+    bool text(const char* key, std::string& value);
+    /// A short name: letters, digits, '_' and '-'.
+    bool name(const char* key, std::string& value);
+    /// A file name, resolved against the scene's directory.
+    bool path(const char* key, std::filesystem::path& value);
+    bool numbers(const char* key, std::vector<double>& values, const std::vector<Range>& ranges);
+    bool place(const char* key, glm::dvec2& value); ///< [x, z]
+    bool place(const char* key, glm::dvec3& value); ///< [x, y, z]
+
+    /// The table under `key`, or nothing.
+    std::optional<TableReader> table(const char* key);
+    /// The tables of [[key]]; more than `limit` is over a limit.
+    std::vector<TableReader> tables(const char* key, std::size_t limit);
+    /// Every entry of this table as a table of its own, by name: [camera.NAME].
+    std::vector<std::pair<std::string, TableReader>> named_tables(std::size_t limit);
+    /// Every entry as integer = number: [terrain.classes].
+    std::vector<std::pair<int, double>> integer_keys(int high, const Range& range);
+
+    /// Refuses the keys that were never asked for.
+    void finish() const;
+    /// Refuses the absence of `key`.
+    void require(const char* key) const;
+
+    [[nodiscard]] bool has(const char* key) const { return table_->contains(key); }
+    [[nodiscard]] base::Error error(const char* key, std::string_view found,
+                                    std::string_view expected) const;
+    [[nodiscard]] base::Error over_limit(const char* key, std::size_t found,
+                                         std::size_t limit) const;
+
+private:
+    const toml::node* find(const char* key);
+    [[nodiscard]] std::string full_name(std::string_view key) const;
+    [[nodiscard]] int line_of(std::string_view key) const;
+    [[nodiscard]] base::Error wrong(std::string_view name, const toml::node& node,
+                                    std::string_view expected) const;
+    [[nodiscard]] double checked(std::string_view name, const toml::node& node,
+                                 const Range& range) const;
+    [[nodiscard]] const toml::table& as_table(std::string_view name, const toml::node& node) const;
+
+    const toml::table* table_;
+    std::filesystem::path file_;
+    std::string name_;
+    std::vector<std::string> known_;
+};
+
+/// What a name of a camera, path or arrow may be: it stands on command lines, where a comma means a
+/// pose.
+[[nodiscard]] bool is_name(std::string_view text);
+
+} // namespace sward::scene
