@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/capture.h"
+#include "app/commands.h"
+#include "app/output_names.h"
+#include "app/poses.h"
+#include "app/stats_json.h"
+#include "app/world_loader.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "gl/context.h"
+
+namespace sward::app {
+namespace {
+
+/// Which frames are drawn, and from where: resolved against the scene before any costly work.
+struct Shot {
+    scene::Pose camera;
+    const scene::Path* path = nullptr; ///< of the scene; null: `camera` stands
+    FrameRange frames;
+};
+
+Shot plan_shot(const Options& options, const scene::Scene& scene) {
+    Shot shot;
+    shot.frames = options.frames.value_or(FrameRange{});
+    if (options.path.empty())
+        shot.camera = find_camera(scene, options.camera);
+    else
+        shot.path = &find_path(scene, options.path);
+    return shot;
+}
+
+render::View view_of(const Shot& shot, const Options& options, const render::Renderer& renderer,
+                     int frame) {
+    render::View view;
+    view.time_s = options.time_s + frame * options.step_s;
+    view.frame_index = options.frame_index + static_cast<std::uint32_t>(frame - shot.frames.first);
+    const scene::Pose pose = shot.path ? scene::sample_path(*shot.path, view.time_s) : shot.camera;
+    view.pose = renderer.above_datum(pose);
+    view.lod_pose = view.pose;
+    if (options.lod_eye) {
+        view.lod_pose = renderer.above_datum(*options.lod_eye);
+        view.lod_pose.fov_deg = view.pose.fov_deg; // an eye has no lens of its own
+    }
+    return view;
+}
+
+void require_silence(const gl::DebugMessages& messages) {
+    if (messages.count > 0)
+        throw base::Error(
+            base::ExitCode::kFailure,
+            fmt::format("--debug-gl: found {} OpenGL messages, expected none; the first: {}",
+                        messages.count, base::printable(messages.first, 400)));
+}
+
+} // namespace
+
+void run_render(const Options& options) {
+    check_outputs(options);
+    const scene::Scene scene = load_scene(options);
+    check_not_inputs(options, scene);
+    const Shot shot = plan_shot(options, scene);
+
+    gl::DebugMessages messages;
+    const gl::HeadlessContext context(options.debug_gl);
+    if (options.debug_gl)
+        gl::watch_debug_messages(&messages);
+    render::Renderer renderer(load_world(scene));
+
+    const OutputNames names(options);
+    const std::string gpu = gl::context_info().renderer;
+    const int count = shot.frames.last - shot.frames.first + 1;
+    base::Progress progress("frames", static_cast<std::size_t>(count));
+    render::FrameSettings settings = options.frame;
+    settings.aov = !options.aovs.empty();
+    std::vector<std::string> stats;
+    for (int frame = shot.frames.first; frame <= shot.frames.last; ++frame) {
+        const render::View view = view_of(shot, options, renderer, frame);
+        const int times = frame == shot.frames.first ? options.warm + 1 : 1;
+        for (int i = 0; i < times; ++i)
+            renderer.draw(view, settings);
+        if (!options.stats.empty())
+            stats.push_back(stats_json(renderer.stats(), gpu, settings));
+        require_silence(messages);
+        capture(renderer, names.name(frame), options.aovs);
+        progress.advance();
+    }
+    require_silence(messages);
+    if (!options.stats.empty())
+        base::write_file_atomic(options.stats, options.frames
+                                                   ? sequence_json(stats, shot.frames.first)
+                                                   : stats.front());
+}
+
+} // namespace sward::app

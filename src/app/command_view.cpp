@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/capture.h"
+#include "app/commands.h"
+#include "app/controls.h"
+#include "app/panel.h"
+#include "app/poses.h"
+#include "app/window.h"
+#include "app/world_loader.h"
+#include "base/log.h"
+#include "gl/context.h"
+
+namespace sward::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestStep = 0.25;   // s: the wind must not leap after a stop
+constexpr int kFramesBetweenStats = 15; // reading counters waits for the GPU
+constexpr int kLargestSide = 16384;
+
+/// The state of a flight: what the keys, the panel and the clock change from frame to frame.
+class Flight {
+public:
+    Flight(const Options& options, const scene::Scene& scene, Window& window,
+           render::Renderer& renderer)
+        : options_(options), window_(window), renderer_(renderer), panel_(window.handle()),
+          settings_(options.frame), pose_(renderer.above_datum(find_camera(scene, options.camera))),
+          gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
+
+    /// Draws until the window is closed, or for options.exit_after frames.
+    void run() {
+        for (int frame = 0; !window_.closed(); ++frame) {
+            if (options_.exit_after > 0 && frame >= options_.exit_after)
+                return;
+            const Input input = window_.poll(panel_.has_mouse(), panel_.has_keyboard());
+            if (input.has(Action::kQuit))
+                return;
+            const glm::ivec2 size = window_.framebuffer_size();
+            if (size.x < 1 || size.y < 1) {
+                window_.wait();
+                last_ = Clock::now();
+                --frame; // not drawn
+                continue;
+            }
+            advance(input);
+            draw(size, static_cast<std::uint32_t>(frame));
+            act(input);
+            present(size);
+        }
+    }
+
+private:
+    [[nodiscard]] double ground() const {
+        return renderer_.ground_height(pose_.position.x, pose_.position.z);
+    }
+
+    void advance(const Input& input) {
+        const auto now = Clock::now();
+        const double elapsed = std::chrono::duration<double>(now - last_).count();
+        last_ = now;
+        frame_ms_ = elapsed * 1000;
+        const double dt =
+            options_.fixed_step ? options_.step_s : std::clamp(elapsed, 0.0, kLongestStep);
+        if (running_)
+            time_s_ += dt;
+        controls_.step(pose_, input, dt);
+        keep_above_ground(pose_, ground());
+    }
+
+    void draw(glm::ivec2 size, std::uint32_t index) {
+        settings_.width = std::min(size.x, kLargestSide);
+        settings_.height = std::min(size.y, kLargestSide);
+        renderer_.draw({pose_, pose_, time_s_, index}, settings_);
+        if (index % kFramesBetweenStats == 0)
+            stats_ = renderer_.stats();
+    }
+
+    void present(glm::ivec2 size) {
+        // A window larger than any picture keeps a rim.
+        renderer_.present(0, 0, std::max(0, size.y - settings_.height));
+        panel_.draw(
+            settings_, running_,
+            {stats_, pose_, ground(), controls_.speed_ms(), frame_ms_, time_s_, gpu_, messages_});
+        window_.swap();
+    }
+
+    void act(const Input& input) {
+        if (input.has(Action::kHelp))
+            panel_.help = !panel_.help;
+        if (input.has(Action::kPanel))
+            panel_.shown = !panel_.shown;
+        if (input.has(Action::kPose))
+            print_pose();
+        if (input.has(Action::kScreenshot))
+            take_screenshot();
+        if (input.has(Action::kReload))
+            reload();
+    }
+
+    void print_pose() const {
+        scene::Pose above_ground = pose_;
+        above_ground.position.y -= ground();
+        above_ground.agl = true;
+        fmt::print("{}\n", scene::format_pose(above_ground));
+        std::fflush(stdout);
+    }
+
+    /// A full disk costs the picture, not the flight.
+    void take_screenshot() {
+        try {
+            base::log_info("screenshot: " + capture_screenshot(renderer_).string());
+        } catch (const base::Error& error) {
+            base::log_error(error.what());
+        }
+    }
+
+    void reload() {
+        messages_ = renderer_.reload_shaders();
+        for (const std::string& message : messages_)
+            base::log_warning(message);
+        if (messages_.empty())
+            base::log_info("shaders reloaded");
+    }
+
+    const Options& options_;
+    Window& window_;
+    render::Renderer& renderer_;
+    Panel panel_;
+    FlyControls controls_;
+    render::FrameSettings settings_;
+    render::FrameStats stats_;
+    scene::Pose pose_; ///< above the datum
+    std::string gpu_;
+    std::vector<std::string> messages_;
+    bool running_ = true;
+    double time_s_;
+    double frame_ms_ = 0;
+    Clock::time_point last_;
+};
+
+} // namespace
+
+void run_view(const Options& options) {
+    const scene::Scene scene = load_scene(options);
+    static_cast<void>(
+        find_camera(scene, options.camera)); // a wrong name is told before the window opens
+    gl::DebugMessages messages;
+    Window window("Sward", options.frame.width, options.frame.height, options.debug_gl);
+    gl::require_gl45();
+    if (options.debug_gl)
+        gl::watch_debug_messages(&messages);
+    render::Renderer renderer(load_world(scene));
+    window.show();
+    {
+        Flight flight(options, scene, window, renderer);
+        flight.run();
+    }
+    if (messages.count > 0)
+        throw base::Error(
+            base::ExitCode::kFailure,
+            fmt::format("--debug-gl: found {} OpenGL messages, expected none; the first: {}",
+                        messages.count, base::printable(messages.first, 400)));
+}
+
+} // namespace sward::app

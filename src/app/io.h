@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/heightfield.h"
+#include "scene/image.h"
+#include "scene/scene.h"
+
+// What the two builds of sward read and write: io_full.cpp stands on the assets module, io_core.cpp
+// on scene alone.
+namespace sward::app {
+
+/// "full" or "core", for `sward info`.
+[[nodiscard]] std::string_view build_name();
+/// Versions of the libraries behind the formats, one line.
+[[nodiscard]] std::string format_libraries();
+
+/// Elevation of a scene. Full: assets::load_elevation, and raw posts; core: .hgt and .raw. Throws
+/// Error.
+[[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
+/// Density mask. The core build reads none: throws Error(kBadInput).
+[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path);
+
+/// Extensions that -o may end in, without the dot.
+[[nodiscard]] std::vector<std::string_view> picture_extensions();
+/// Extension of the display pictures, without the dot: screenshots.
+[[nodiscard]] std::string_view display_extension();
+/// Whether a file of this name holds linear channels (AOVs) rather than a display picture.
+[[nodiscard]] bool is_linear(const std::filesystem::path& path);
+
+/// Write a file whole or not at all. Throw Error(kIo).
+void write_display(const std::filesystem::path& path, const scene::Picture& picture);
+void write_linear(const std::filesystem::path& path, const scene::Image& image);
+
+} // namespace sward::app

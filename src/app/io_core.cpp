@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/io.h"
+
+#include "base/error.h"
+
+namespace sward::app {
+
+using base::ExitCode;
+
+std::string_view build_name() {
+    return "core";
+}
+std::string format_libraries() {
+    return "none beyond the core's own";
+}
+
+scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
+    const std::string extension = spec.elevation.extension().string();
+    if (extension == ".hgt")
+        return scene::read_hgt(spec.elevation);
+    if (extension == ".raw")
+        return scene::read_raw_elevation(spec.elevation);
+    throw base::input_error(ExitCode::kBadInput, spec.elevation, 0, "elevation",
+                            extension.empty() ? "no extension" : extension,
+                            ".hgt or .raw (the core build reads no other)");
+}
+
+scene::DensityMask load_mask(const std::filesystem::path& path) {
+    throw base::input_error(ExitCode::kBadInput, path, 0, "mask", "an image",
+                            "none (the core build reads no images)");
+}
+
+std::vector<std::string_view> picture_extensions() {
+    return {"ppm"};
+}
+std::string_view display_extension() {
+    return "ppm";
+}
+bool is_linear(const std::filesystem::path&) {
+    return false;
+}
+
+void write_display(const std::filesystem::path& path, const scene::Picture& picture) {
+    scene::write_ppm(path, picture);
+}
+
+void write_linear(const std::filesystem::path& path, const scene::Image&) {
+    throw base::input_error(ExitCode::kUsage, path, 0, "picture", "linear channels",
+                            "a .ppm picture (the core build writes no other)");
+}
+
+} // namespace sward::app

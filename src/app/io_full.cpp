@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/io.h"
+
+#include "assets/assets.h"
+
+namespace sward::app {
+
+std::string_view build_name() {
+    return "full";
+}
+std::string format_libraries() {
+    return assets::library_versions();
+}
+
+scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
+    if (spec.elevation.extension() == ".raw")
+        return scene::read_raw_elevation(spec.elevation);
+    return assets::load_elevation(spec);
+}
+
+scene::DensityMask load_mask(const std::filesystem::path& path) {
+    return assets::load_mask(path);
+}
+
+std::vector<std::string_view> picture_extensions() {
+    return {"png", "exr"};
+}
+std::string_view display_extension() {
+    return "png";
+}
+bool is_linear(const std::filesystem::path& path) {
+    return path.extension() == ".exr";
+}
+
+void write_display(const std::filesystem::path& path, const scene::Picture& picture) {
+    assets::write_png(path, picture);
+}
+
+void write_linear(const std::filesystem::path& path, const scene::Image& image) {
+    assets::write_exr(path, image);
+}
+
+} // namespace sward::app

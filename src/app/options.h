@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+#include "render/renderer.h"
+#include "scene/scene.h"
+
+namespace sward::app {
+
+enum class Command { kHelp, kView, kRender, kInfo };
+
+/// Frames of a sequence, both ends included.
+struct FrameRange {
+    int first = 0;
+    int last = 0;
+};
+
+/// Everything the command line can say, checked as far as that needs no file. Each option is
+/// declared once, in options.cpp; the panel of the viewer edits the same `frame`.
+struct Options {
+    Command command = Command::kHelp;
+    base::Verbosity verbosity = base::Verbosity::kNormal;
+    std::string help; ///< kHelp: the text for stdout
+
+    std::filesystem::path scene; ///< as given: a scene file, or a directory that holds scene.toml
+    std::string camera;          ///< a camera of the scene or a pose; empty: poses.h chooses
+    double time_s = 0;
+    double step_s = 1.0 / 60.0;    ///< simulated time between two frames
+    bool fixed_step = false;       ///< the viewer: time goes by `step_s`, not by the clock
+    std::optional<double> density; ///< instead of the scene's
+    bool debug_gl = false;         ///< GL debug messages end the program with exit 1
+    render::FrameSettings frame;
+
+    // render
+    std::filesystem::path output;
+    std::filesystem::path stats;
+    std::vector<std::string> aovs;
+    std::string path; ///< of the scene; empty: the camera stands
+    std::optional<FrameRange> frames;
+    std::uint32_t frame_index = 0;
+    std::optional<scene::Pose> lod_eye;
+    int warm = 0;
+
+    // view
+    int exit_after = 0; ///< frames; 0: until it is closed
+};
+
+/// Parses a command line. Throws Error: kUsage, kOverLimit for a size past the limit.
+[[nodiscard]] Options parse_options(int argc, const char* const* argv);
+
+} // namespace sward::app

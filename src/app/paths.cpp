@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/paths.h"
+
+#include <cstdlib>
+
+#include "base/error.h"
+#include "base/file.h"
+
+namespace sward::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An absolute path from the environment: the XDG rules ignore relative ones.
+fs::path from_environment(const char* name) {
+    const char* const value = std::getenv(name);
+    const fs::path path = value == nullptr ? "" : value;
+    return path.is_absolute() ? path : fs::path();
+}
+
+} // namespace
+
+fs::path data_directory() {
+    const fs::path installed = base::executable_directory().parent_path() / "share" / "sward";
+    std::error_code ignored;
+    return fs::is_directory(installed, ignored) ? installed : fs::path(SWARD_SOURCE_DIR);
+}
+
+fs::path default_scene() {
+    return data_directory() / "terrains" / "jacksboro" / "scene.toml";
+}
+
+fs::path presets_directory() {
+    return data_directory() / "texgen" / "presets";
+}
+
+fs::path texgen_program() {
+    return base::executable_directory() / "texgen";
+}
+
+fs::path set_cache_directory() {
+    fs::path cache = from_environment("XDG_CACHE_HOME");
+    if (cache.empty()) {
+        const fs::path home = from_environment("HOME");
+        if (home.empty())
+            throw base::Error(base::ExitCode::kIo,
+                              "cache of grass sets: found neither XDG_CACHE_HOME nor HOME, "
+                              "expected an absolute path in one of them");
+        cache = home / ".cache";
+    }
+    return cache / "sward" / "sets";
+}
+
+} // namespace sward::app

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+// Where sward finds what ships with it, and where it keeps what it makes. Nothing here touches a
+// file.
+namespace sward::app {
+
+/// <exe>/../share/sward where sward is installed, else the source tree it was built from.
+[[nodiscard]] std::filesystem::path data_directory();
+/// The scene that `sward view` opens where none is given.
+[[nodiscard]] std::filesystem::path default_scene();
+/// The presets that scenes may name without shipping them.
+[[nodiscard]] std::filesystem::path presets_directory();
+/// The generator that bakes them: it stands beside sward.
+[[nodiscard]] std::filesystem::path texgen_program();
+/// $XDG_CACHE_HOME/sward/sets, by default ~/.cache/sward/sets. Throws Error(kIo) where there is
+/// neither.
+[[nodiscard]] std::filesystem::path set_cache_directory();
+
+} // namespace sward::app

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/set_cache.h"
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include "app/child_process.h"
+#include "app/commands.h"
+#include "app/paths.h"
+#include "app/set_lookup.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "base/log.h"
+
+namespace sward::app {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ExitCode;
+
+constexpr std::uint64_t kPresetLimit = std::uint64_t{1} << 20;
+constexpr int kCacheVersion = 1; // part of the key: raised with the format of a set
+
+/// One baker at a time: a second process waits and then finds the set. Held until the end of the
+/// scope.
+class CacheLock {
+public:
+    explicit CacheLock(const fs::path& path)
+        : fd_(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
+        if (fd_ < 0)
+            throw base::input_error(ExitCode::kIo, path, 0, "cannot lock the cache",
+                                    std::strerror(errno),
+                                    "a writable directory (XDG_CACHE_HOME names another)");
+        while (::flock(fd_, LOCK_EX) != 0 && errno == EINTR) {
+        } // a file system without locks: two bakers then do the work twice, and one wins
+    }
+    ~CacheLock() { ::close(fd_); }
+    CacheLock(const CacheLock&) = delete;
+    CacheLock& operator=(const CacheLock&) = delete;
+
+private:
+    int fd_;
+};
+
+/// Baked by an older texgen than the one beside us: its picture may differ from a cold start's.
+bool is_outdated(const fs::path& set) {
+    std::error_code a, b;
+    const auto baked = fs::last_write_time(set / "set.json", a);
+    const auto texgen = fs::last_write_time(texgen_program(), b);
+    return !a && !b && baked < texgen;
+}
+
+std::string reason_of(const base::Error& error) {
+    return base::printable(error.what(), 300);
+}
+
+void bake(const fs::path& preset, const fs::path& set) {
+    base::log_info(fmt::format("grass set of {}: baked on first use, into {}",
+                               base::printable(preset.native(), 200), set.native()));
+    std::vector<std::string> arguments = {preset.string(), "-o", set.string()};
+    if (base::verbosity() == base::Verbosity::kQuiet)
+        arguments.emplace_back("-q");
+    if (const int code = run_program(texgen_program(), arguments); code != 0)
+        throw AlreadyReported{code};
+}
+
+fs::path prepare_cache() {
+    const fs::path cache = set_cache_directory();
+    std::error_code error;
+    fs::create_directories(cache, error);
+    if (error)
+        throw base::input_error(ExitCode::kIo, cache, 0, "cannot make the cache of grass sets",
+                                error.message(),
+                                "a writable directory (XDG_CACHE_HOME names another)");
+    return cache;
+}
+
+/// The cached set, or nothing where it has to be baked. `complain`: say why once it is certain.
+std::optional<grass::GrassSet> read_cached(const fs::path& set, bool complain) {
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(set, ignored)) || is_outdated(set))
+        return {};
+    try {
+        return grass::read_grass_set(set);
+    } catch (const base::Error& error) {
+        if (complain)
+            base::log_warning(fmt::format(
+                "the cached grass set cannot be used and is baked again: {}", reason_of(error)));
+        return {};
+    }
+}
+
+} // namespace
+
+grass::GrassSet load_grass(const scene::Scene& scene) {
+    const SetPlace place = find_set(scene);
+    if (!place.is_preset)
+        return grass::read_grass_set(place.path);
+    const std::string text = base::read_text(place.path, kPresetLimit);
+    const fs::path cache = prepare_cache();
+    const std::string key = base::sha256_hex(fmt::format("{}\n{}", kCacheVersion, text));
+    const fs::path set = cache / key;
+    if (auto cached = read_cached(set, false))
+        return std::move(*cached);
+
+    const CacheLock lock(cache / (key + ".lock"));
+    if (auto cached = read_cached(set, true)) // another process may have baked it while we waited
+        return std::move(*cached);
+    std::error_code ignored;
+    fs::remove_all(set, ignored); // ours alone, and nothing in it can be trusted
+    bake(place.path, set);
+    return grass::read_grass_set(set);
+}
+
+} // namespace sward::app

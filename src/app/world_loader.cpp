@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/world_loader.h"
+
+#include "app/io.h"
+#include "app/paths.h"
+#include "app/set_cache.h"
+
+namespace sward::app {
+
+namespace fs = std::filesystem;
+
+scene::Scene load_scene(const Options& options) {
+    fs::path file = options.scene.empty() ? default_scene() : options.scene;
+    std::error_code ignored;
+    if (fs::is_directory(file, ignored))
+        file /= "scene.toml";
+    scene::Scene scene = scene::load_scene(file);
+    if (options.density)
+        scene.grass.density = *options.density;
+    return scene;
+}
+
+render::World load_world(const scene::Scene& scene) {
+    // Quick to refuse first: a bake may take minutes.
+    render::World world;
+    world.scene = scene;
+    world.elevation = load_elevation(scene.terrain);
+    if (!scene.terrain.mask.empty())
+        world.mask = load_mask(scene.terrain.mask);
+    world.grass = load_grass(scene);
+    return world;
+}
+
+} // namespace sward::app

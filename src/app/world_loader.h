@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/options.h"
+#include "render/renderer.h"
+
+namespace sward::app {
+
+/// The scene that the options name, with their overrides. Opens no other file than the scene's.
+/// Throws Error.
+[[nodiscard]] scene::Scene load_scene(const Options& options);
+
+/// Every file that the scene names: elevation, mask, grass set. Throws Error, or AlreadyReported.
+[[nodiscard]] render::World load_world(const scene::Scene& scene);
+
+} // namespace sward::app
