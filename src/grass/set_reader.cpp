@@ -1,1 +1,206 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/hash.h"
+#include "grass/blades_glb.h"
+#include "grass/grass_set.h"
+#include "grass/ktx2.h"
+#include "grass/set_files.h"
+
+namespace sward::grass {
+namespace {
+
+using base::ExitCode;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
+constexpr std::uint64_t kMaxSetBytes = std::uint64_t{2} << 30; // all arrays unpacked
+constexpr int kMaxImages = 256;                               // layers, or slices an axis
+constexpr std::size_t kMaxFarRows = 256;
+
+/// set.json with every access checked.
+class SetJson {
+public:
+    SetJson(const fs::path& path) : path_(path) {
+        const std::string text = base::read_text(path, kMaxSetJsonBytes);
+        check_depth(text);
+        root_ = json::parse(text, nullptr, false);
+        if (!root_.is_object())
+            refuse("JSON", "something else", "a grass set's description");
+    }
+
+    [[noreturn]] void refuse(std::string_view what, const std::string& found, const std::string& expected) const {
+        throw base::input_error(ExitCode::kBadInput, path_, 0, what, found, expected);
+    }
+    [[noreturn]] void over(std::string_view what, const std::string& found, const std::string& expected) const {
+        throw base::input_error(ExitCode::kOverLimit, path_, 0, what, found, expected);
+    }
+    const json& root() const { return root_; }
+
+    const json& at(const json& object, const char* key) const {
+        if (!object.is_object() || !object.contains(key))
+            refuse(key, "none", "a value");
+        return object[key];
+    }
+    double number(const json& object, const char* key, double low, double high) const {
+        const json& value = at(object, key);
+        const double v = value.is_number() ? value.get<double>() : std::nan("");
+        if (!(v >= low && v <= high))
+            refuse(key, base::printable(value.dump()), fmt::format("a number from {} to {}", low, high));
+        return v;
+    }
+    float real(const json& object, const char* key, double low, double high) const {
+        return static_cast<float>(number(object, key, low, high));
+    }
+    int whole(const json& object, const char* key, int low, int high) const {
+        const double v = number(object, key, low, high);
+        if (v != std::floor(v))
+            refuse(key, std::to_string(v), "a whole number");
+        return static_cast<int>(v);
+    }
+    std::string text(const json& object, const char* key) const {
+        const json& value = at(object, key);
+        if (!value.is_string() || value.get_ref<const std::string&>().size() > 128)
+            refuse(key, base::printable(value.dump()), "a short text");
+        return value.get<std::string>();
+    }
+    const json& array(const json& object, const char* key, std::size_t low, std::size_t high) const {
+        const json& value = at(object, key);
+        if (!value.is_array() || value.size() < low || value.size() > high)
+            refuse(key, value.is_array() ? fmt::format("{} entries", value.size()) : "no list", fmt::format("{} to {} entries", low, high));
+        return value;
+    }
+    shared::vec4 colour(const json& object, const char* key, float a) const {
+        const json& list = array(object, key, 3, 3);
+        shared::vec4 c(0, 0, 0, a);
+        for (int i = 0; i < 3; ++i) {
+            const json& part = list[static_cast<std::size_t>(i)];
+            const double v = part.is_number() ? part.get<double>() : std::nan("");
+            if (!(v >= 0 && v <= 1))
+                refuse(key, base::printable(part.dump()), "linear reflectance from 0 to 1");
+            c[i] = static_cast<float>(v);
+        }
+        return c;
+    }
+
+private:
+    void check_depth(const std::string& text) const {
+        int depth = 0;
+        for (const char c : text) {
+            depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
+            if (depth > 32)
+                refuse("JSON", "deeper nesting", "at most 32 levels");
+        }
+    }
+
+    fs::path path_;
+    json root_;
+};
+
+/// A file of the set, whole and as its writer left it, or an error.
+std::vector<std::byte> verified_file(const SetJson& set, const fs::path& directory, const std::string& name) {
+    const json& entry = set.at(set.at(set.root(), "files"), name.c_str());
+    const auto size = static_cast<std::uint64_t>(set.number(entry, "bytes", 0, static_cast<double>(kMaxFileBytes)));
+    const std::string expected = set.text(entry, "sha256");
+    std::vector<std::byte> bytes = base::read_file(directory / name, kMaxFileBytes);
+    if (bytes.size() != size)
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size", fmt::format("{} bytes", bytes.size()),
+                                fmt::format("{} as in {}", size, kSetJson));
+    const std::string found = base::sha256_hex(bytes);
+    if (found != expected)
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "SHA-256", found.substr(0, 16) + "...",
+                                base::printable(expected.substr(0, 16)) + "... as in " + kSetJson);
+    return bytes;
+}
+
+void read_head(const SetJson& set, GrassSet& out) {
+    const json& root = set.root();
+    const int version = set.whole(root, "version", 0, 1 << 20);
+    if (version != kSetFormatVersion)
+        set.refuse("version", std::to_string(version), fmt::format("{}: bake the set again", kSetFormatVersion));
+    out.name = set.text(root, "preset");
+    const json& seed = set.at(root, "seed");
+    if (!seed.is_number_unsigned())
+        set.refuse("seed", base::printable(seed.dump()), "a whole number from 0");
+    out.seed = seed.get<std::uint64_t>();
+    out.side_m = set.real(root, "side_m", 0.01, 1000);
+    out.canopy_m = set.real(root, "canopy_m", 0.0001, 100);
+    out.offset_range_m = set.real(root, "offset_range_m", 0.0001, 1000);
+    out.variants = set.whole(root, "variants", 1, kMaxVariants);
+    out.density_per_m2 = set.real(root, "density_per_m2", 0, 1e6);
+    const json& look = set.at(root, "appearance");
+    out.appearance.root = set.colour(look, "root", set.real(look, "dry_share", 0, 1));
+    out.appearance.tip = set.colour(look, "tip", set.real(look, "variation", 0, 1));
+    out.appearance.dry = set.colour(look, "dry", set.real(look, "translucency", 0, 1));
+    out.appearance.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000), set.real(look, "ks", 0, 1000),
+                            set.real(look, "ps", 0, 10000)};
+}
+
+void read_far(const SetJson& set, GrassSet& out) {
+    float last = 90.001f;
+    for (const json& row : set.array(set.root(), "far", 0, kMaxFarRows)) {
+        const FarRow far{set.real(row, "elevation_deg", 0, 90), set.real(row, "coverage", 0, 1), set.real(row, "height", 0, 1),
+                         set.real(row, "along", 0, 1)};
+        if (far.elevation_deg >= last)
+            set.refuse("far", fmt::format("{} degrees after {}", far.elevation_deg, last), "falling elevations");
+        last = far.elevation_deg;
+        out.far.push_back(far);
+    }
+}
+
+TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name, int images) {
+    TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
+    if (array.layers != images)
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images", std::to_string(array.layers), std::to_string(images));
+    return array;
+}
+
+void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
+    std::uint64_t total = 0;
+    const json& levels = set.array(set.root(), "levels", 1, kMaxFarLevels);
+    for (int k = 0; k < static_cast<int>(levels.size()); ++k) {
+        const json& entry = levels[static_cast<std::size_t>(k)];
+        FarLevel level;
+        level.layer_count = set.whole(entry, "layer_count", 1, kMaxImages);
+        level.slice_count = set.whole(entry, "slice_count", 1, kMaxImages);
+        // Names are ours, not the file's: nothing outside the directory can be asked for.
+        level.layers = read_array(set, directory, layers_file(k), out.variants * level.layer_count * shared::kPlanes);
+        level.slices = read_array(set, directory, slices_file(k), out.variants * 2 * level.slice_count * shared::kPlanes);
+        if (level.layers.width != level.layers.height || level.layers.width != level.slices.width)
+            set.refuse("levels", fmt::format("layers {} x {}, slices {} wide", level.layers.width, level.layers.height, level.slices.width),
+                       "square layers and slices of the same width");
+        if (k > 0 && level.layers.width != std::max(1, out.levels[0].layers.width >> k))
+            set.refuse("levels", fmt::format("{} texels at level {}", level.layers.width, k), "half of the level before");
+        for (const TextureArray* array : {&level.layers, &level.slices})
+            for (const auto& mip : array->mips)
+                total += mip.size();
+        if (total > kMaxSetBytes)
+            set.over("textures", fmt::format("{} bytes", total), fmt::format("at most {}", kMaxSetBytes));
+        out.levels.push_back(std::move(level));
+    }
+}
+
+} // namespace
+
+GrassSet read_grass_set(const fs::path& directory) {
+    const SetJson set(directory / kSetJson);
+    GrassSet out;
+    read_head(set, out);
+    read_far(set, out);
+    BladeList list = decode_blades(verified_file(set, directory, kBladesFile), directory / kBladesFile, out.side_m);
+    if (static_cast<int>(list.variant_begin.size()) != out.variants + 1)
+        set.refuse("variants", std::to_string(out.variants), fmt::format("{} as in {}", list.variant_begin.size() - 1, kBladesFile));
+    out.blades = std::move(list.blades);
+    out.variant_begin = std::move(list.variant_begin);
+    read_levels(set, directory, out);
+    return out;
+}
+
+} // namespace sward::grass

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names inside a grass set's directory, known to its writer and its reader.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace sward::grass {
+
+inline constexpr int kSetFormatVersion = 1;
+inline constexpr int kMaxVariants = 16;
+inline constexpr int kMaxFarLevels = 5;
+inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;
+inline constexpr const char* kSetJson = "set.json";
+inline constexpr const char* kBladesFile = "blades.glb";
+inline constexpr const char* kVolumeFile = "volume.vdb";
+inline constexpr const char* kPreviewFile = "preview.png";
+
+/// layers.ktx2, layers_1.ktx2, ...
+[[nodiscard]] std::string layers_file(int level);
+[[nodiscard]] std::string slices_file(int level);
+
+} // namespace sward::grass

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "grass/grass_set.h"
+#include "texgen/patch.h"
+
+namespace sward::texgen {
+
+/// Coverage, mean height and place along the blade that rays through the blades meet, at falling elevations; the rays
+/// spread evenly over places, azimuths and variants.
+[[nodiscard]] std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int threads);
+
+} // namespace sward::texgen

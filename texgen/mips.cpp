@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include "base/hash.h"
+#include "texgen/far_level.h"
+
+namespace sward::texgen {
+namespace {
+
+/// The at most three texels of a row of `from` that one texel of `to` covers, with their shares of it.
+struct Footprint {
+    int index[3] = {};
+    float share[3] = {};
+    int count = 0;
+};
+
+std::vector<Footprint> footprints(int from, int to) {
+    std::vector<Footprint> all(static_cast<std::size_t>(to));
+    for (int i = 0; i < to; ++i) {
+        const double low = static_cast<double>(i) * from / to, high = static_cast<double>(i + 1) * from / to;
+        Footprint& f = all[static_cast<std::size_t>(i)];
+        for (int j = static_cast<int>(low); j < from && j < high && f.count < 3; ++j) {
+            const double part = std::min(high, j + 1.0) - std::max(low, static_cast<double>(j));
+            if (part <= 1e-9)
+                continue;
+            f.index[f.count] = j;
+            f.share[f.count++] = static_cast<float>(part / (high - low));
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+TexelImage next_mip(const TexelImage& image, std::uint64_t salt) {
+    TexelImage mip{std::max(1, image.width / 2), std::max(1, image.height / 2), {}};
+    const std::vector<Footprint> columns = footprints(image.width, mip.width);
+    const std::vector<Footprint> rows = footprints(image.height, mip.height);
+    mip.texels.reserve(static_cast<std::size_t>(mip.width) * static_cast<std::size_t>(mip.height));
+    for (const Footprint& row : rows)
+        for (const Footprint& column : columns) {
+            float weight[9];
+            const Texel* child[9];
+            int count = 0;
+            float sum = 0;
+            for (int j = 0; j < row.count; ++j)
+                for (int i = 0; i < column.count; ++i) {
+                    const Texel& texel = image.texels[static_cast<std::size_t>(row.index[j]) * static_cast<std::size_t>(image.width) +
+                                                      static_cast<std::size_t>(column.index[i])];
+                    if (texel.blade < 0)
+                        continue;
+                    child[count] = &texel;
+                    weight[count] = texel.coverage * row.share[j] * column.share[i];
+                    sum += weight[count++];
+                }
+            Texel out;
+            if (count > 0) {
+                float pick = static_cast<float>(base::hash_unit(salt, 0, mip.texels.size())) * sum;
+                int chosen = 0;
+                while (chosen + 1 < count && pick >= weight[chosen])
+                    pick -= weight[chosen++];
+                out = {sum, child[chosen]->blade, child[chosen]->along};
+            }
+            mip.texels.push_back(out);
+        }
+    return mip;
+}
+
+} // namespace sward::texgen

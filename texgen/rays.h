@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "texgen/canopy.h"
+
+namespace sward::texgen {
+
+/// Where a ray meets a blade.
+struct RayHit {
+    double distance = 0;
+    std::uint32_t blade = 0;
+    double along = 0;      ///< v
+    glm::dvec3 position{}; ///< unwrapped
+    glm::dvec3 normal{};   ///< unit, either side
+};
+
+/// Blades of one variant on the endless plane, for exact rays: the truth that textures are held to.
+class BladeField {
+public:
+    BladeField(std::span<const shared::BladeRecord> blades, double side, double canopy);
+
+    /// First blade that the ray meets above the ground. `direction` is a unit vector.
+    [[nodiscard]] std::optional<RayHit> cast(glm::dvec3 origin, glm::dvec3 direction) const;
+
+    [[nodiscard]] double canopy() const { return canopy_; }
+    [[nodiscard]] double side() const { return side_; }
+
+private:
+    struct Item {
+        std::uint32_t blade;
+        std::uint8_t segment;
+        std::int8_t shift_x, shift_z; ///< image of the torus that reaches into the cell
+    };
+
+    void bin(std::uint32_t blade, int segment);
+    void meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction, std::optional<RayHit>& best) const;
+    [[nodiscard]] const std::vector<Item>& cell(int x, int z) const;
+
+    double side_;
+    double canopy_;
+    int cells_;
+    std::vector<Outline> outlines_;
+    std::vector<std::vector<Item>> grid_;
+};
+
+} // namespace sward::texgen

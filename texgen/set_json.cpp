@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <charconv>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "grass/set_files.h"
+#include "texgen/writer.h"
+
+namespace sward::texgen {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// The shortest decimal that reads back as the same float.
+double decimal(float value) {
+    const std::string text = fmt::format("{}", value);
+    double out = 0;
+    std::from_chars(text.data(), text.data() + text.size(), out);
+    return out;
+}
+
+ordered_json rgb(const shared::vec4& c) { return {decimal(c.x), decimal(c.y), decimal(c.z)}; }
+
+ordered_json look(const shared::GrassAppearance& a) {
+    return {{"root", rgb(a.root)},
+            {"tip", rgb(a.tip)},
+            {"dry", rgb(a.dry)},
+            {"dry_share", decimal(a.root.w)},
+            {"variation", decimal(a.tip.w)},
+            {"translucency", decimal(a.dry.w)},
+            {"kd", decimal(a.light.x)},
+            {"pd", decimal(a.light.y)},
+            {"ks", decimal(a.light.z)},
+            {"ps", decimal(a.light.w)}};
+}
+
+} // namespace
+
+std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& files) {
+    ordered_json root = {{"format", "Sward grass set"},
+                         {"version", grass::kSetFormatVersion},
+                         {"preset", set.name},
+                         {"seed", set.seed},
+                         {"side_m", decimal(set.side_m)},
+                         {"canopy_m", decimal(set.canopy_m)},
+                         {"offset_range_m", decimal(set.offset_range_m)},
+                         {"variants", set.variants},
+                         {"density_per_m2", decimal(set.density_per_m2)},
+                         {"blades", set.blades.size()},
+                         {"appearance", look(set.appearance)}};
+    for (std::size_t k = 0; k < set.levels.size(); ++k) {
+        const grass::FarLevel& level = set.levels[k];
+        root["levels"].push_back({{"size", level.layers.width},
+                                  {"texel_m", decimal(set.side_m / static_cast<float>(level.layers.width))},
+                                  {"layer_count", level.layer_count},
+                                  {"slice_count", level.slice_count},
+                                  {"slice_rows", level.slices.height},
+                                  {"layers", grass::layers_file(static_cast<int>(k))},
+                                  {"slices", grass::slices_file(static_cast<int>(k))}});
+    }
+    root["far"] = ordered_json::array();
+    for (const grass::FarRow& row : set.far)
+        root["far"].push_back({{"elevation_deg", decimal(row.elevation_deg)},
+                               {"coverage", decimal(row.coverage)},
+                               {"height", decimal(row.height)},
+                               {"along", decimal(row.along)}});
+    for (const FileEntry& file : files)
+        root["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
+    return root.dump(2) + "\n";
+}
+
+} // namespace sward::texgen
