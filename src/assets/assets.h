@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "scene/heightfield.h"
 #include "scene/image.h"
@@ -15,8 +17,10 @@ namespace sward::assets {
 /// NaN, all nodata, fewer than 2 x 2 posts; kOverLimit over docs/limits. The message names the file.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 
-/// Density mask: PNG, TIFF or EXR; first channel, 0..1. Throws like load_elevation.
-[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path);
+/// Density mask: PNG, TIFF, EXR or JPEG; first channel, 0..1. With `classes` (TerrainSpec::classes) the channel holds
+/// integer landcover classes instead, and a class that is not listed has density 0. Throws like load_elevation.
+[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path,
+                                           const std::map<int, double>& classes = {});
 
 /// 8-bit sRGB PNG. `metadata` is not written: the same picture gives the same bytes. Throws Error(kIo).
 void write_png(const std::filesystem::path& path, const scene::Picture& picture);

@@ -65,21 +65,31 @@ const char* kind_name(mode_t mode) {
     }
 }
 
-template<class Container> Container read_whole(const fs::path& path, std::uint64_t limit) {
+/// Opens a regular file for reading; `size` becomes what fstat tells.
+int open_regular(const fs::path& path, std::uint64_t& size) {
     // O_NONBLOCK: opening a FIFO that nobody writes to would wait for ever.
-    const Descriptor fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-    if (fd.get() < 0)
+    const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY);
+    struct stat info {};
+    if (fd < 0)
         throw io_error(path, "cannot read", reason(errno), "a readable file");
-    struct stat info{};
-    if (::fstat(fd.get(), &info) != 0)
-        throw io_error(path, "cannot read", reason(errno), "a readable file");
-    if (!S_ISREG(info.st_mode))
-        throw io_error(path, "cannot read", kind_name(info.st_mode), "a regular file");
+    const int failed = ::fstat(fd, &info) == 0 ? 0 : errno;
+    if (failed == 0 && S_ISREG(info.st_mode)) {
+        size = static_cast<std::uint64_t>(info.st_size);
+        return fd;
+    }
+    ::close(fd);
+    throw io_error(path, "cannot read", failed ? reason(failed) : kind_name(info.st_mode),
+                   "a regular file");
+}
+
+template<class Container>
+Container read_whole(const fs::path& path, std::uint64_t limit) {
+    std::uint64_t told = 0;
+    const Descriptor fd(open_regular(path, told));
     const auto over_limit = [&](std::uint64_t size) {
         return input_error(ExitCode::kOverLimit, path, 0, "file too large",
                            fmt::format("{} bytes", size), fmt::format("at most {}", limit));
     };
-    const auto told = static_cast<std::uint64_t>(info.st_size);
     if (told > limit)
         throw over_limit(told);
 
@@ -154,6 +164,25 @@ std::vector<std::byte> read_file(const fs::path& path, std::uint64_t limit) {
 
 std::string read_text(const fs::path& path, std::uint64_t limit) {
     return read_whole<std::string>(path, limit);
+}
+
+std::vector<std::byte> read_head(const fs::path& path, std::size_t most) {
+    std::uint64_t size = 0;
+    const Descriptor fd(open_regular(path, size));
+    std::vector<std::byte> head(most);
+    std::size_t done = 0;
+    while (done < most) {
+        const ssize_t n = ::read(fd.get(), head.data() + done, most - done);
+        if (n < 0 && errno == EINTR)
+            continue;
+        if (n < 0)
+            throw io_error(path, "cannot read", reason(errno), "a readable file");
+        if (n == 0)
+            break;
+        done += static_cast<std::size_t>(n);
+    }
+    head.resize(done);
+    return head;
 }
 
 void write_file_atomic(const fs::path& path, std::span<const std::byte> bytes) {

@@ -15,6 +15,9 @@ namespace sward::base {
 [[nodiscard]] std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t limit);
 [[nodiscard]] std::string read_text(const std::filesystem::path& path, std::uint64_t limit);
 
+/// The first `most` bytes of a regular file (fewer when it is shorter), to choose a reader by; throws like read_file.
+[[nodiscard]] std::vector<std::byte> read_head(const std::filesystem::path& path, std::size_t most);
+
 /// Writes a file whole or not at all: temporary name in the same directory, write, fsync, rename, fsync of the directory.
 /// Throws Error(kIo) that names `path`; the old file is then intact and the temporary is gone.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes);
