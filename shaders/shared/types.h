@@ -12,6 +12,7 @@
 #define SHARED_FN inline
 #define SHARED_CONST constexpr
 #define SHARED_OUT(type) type&
+#define SHARED_INOUT(type) type&
 namespace sward::shared {
 using glm::ivec2;
 using glm::ivec4;
@@ -24,6 +25,7 @@ using glm::vec4;
 using uint = std::uint32_t;
 // GLSL built-ins that the pure functions use.
 using glm::abs;
+using glm::asin;
 using glm::atan;
 using glm::clamp;
 using glm::cos;
@@ -48,6 +50,11 @@ using glm::sqrt;
 #define SHARED_FN
 #define SHARED_CONST const
 #define SHARED_OUT(type) out type
+#define SHARED_INOUT(type) inout type
 #endif
+
+SHARED_BEGIN
+SHARED_CONST float kPi = 3.14159265358979f;
+SHARED_END
 
 #endif

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -73,7 +73,9 @@ void run_render(const Options& options) {
     const OutputNames names(options);
     const std::string gpu = gl::context_info().renderer;
     const int count = shot.frames.last - shot.frames.first + 1;
-    base::Progress progress("frames", static_cast<std::size_t>(count));
+    std::optional<base::Progress> progress;
+    if (count > 1)
+        progress.emplace("frames", static_cast<std::size_t>(count));
     render::FrameSettings settings = options.frame;
     settings.aov = !options.aovs.empty();
     std::vector<std::string> stats;
@@ -86,7 +88,8 @@ void run_render(const Options& options) {
             stats.push_back(stats_json(renderer.stats(), gpu, settings));
         require_silence(messages);
         capture(renderer, names.name(frame), options.aovs);
-        progress.advance();
+        if (progress)
+            progress->advance();
     }
     require_silence(messages);
     if (!options.stats.empty())

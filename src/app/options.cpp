@@ -194,19 +194,25 @@ base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     const auto commands = app.get_subcommands();
     const CLI::App& at = commands.empty() ? app : *commands.front();
     const std::string help =
-        commands.empty() ? "sward --help" : fmt::format("sward {} --help", at.get_name());
-    for (const CLI::Option* option : at.get_options())
+        commands.empty() ? "`sward --help`" : fmt::format("`sward {} --help`", at.get_name());
+    // An argument that nothing takes is worth more than what is missing because of it.
+    if (const auto extras = app.remaining(true); !extras.empty())
+        return option_error(at.get_name(), extras.front(), fmt::format("what {} lists", help));
+    for (const CLI::Option* option : at.get_options()) {
         if (option->get_expected_max() == 1 && option->count() > 1)
             return {base::ExitCode::kUsage, fmt::format("{}: found {} times, expected once",
                                                         option->get_name(), option->count())};
-    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
-        const auto extras = app.remaining(true);
-        return option_error(commands.empty() ? "sward" : at.get_name(),
-                            extras.empty() ? std::string() : extras.front(),
-                            fmt::format("what `{}` lists", help));
+        const std::string said = error.what();
+        const std::string name = option->get_name();
+        const bool missing =
+            said == name + " is required" || said.starts_with(name + ": 1 required");
+        if (missing)
+            return {base::ExitCode::kUsage,
+                    fmt::format("{}: found nothing, expected {}", name, option->get_type_name())};
     }
-    return {base::ExitCode::kUsage, fmt::format("command line: found: {}, expected what `{}` lists",
-                                                one_line(error.what()), help)};
+    return {base::ExitCode::kUsage,
+            fmt::format("command line: found \"{}\", expected what {} lists",
+                        one_line(error.what()), help)};
 }
 
 } // namespace

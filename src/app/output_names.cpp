@@ -65,6 +65,9 @@ fs::path OutputNames::name(int frame) const {
 }
 
 void check_outputs(const Options& options) {
+    std::error_code ignored;
+    if (fs::exists(options.output, ignored))
+        base::require_writable(options.output); // a directory or a device, whatever it is called
     check_extension(options.output);
     if (!options.aovs.empty() && !is_linear(options.output))
         throw option_error("--output", options.output.string(),

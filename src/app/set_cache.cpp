@@ -37,6 +37,9 @@ public:
             throw base::input_error(ExitCode::kIo, path, 0, "cannot lock the cache",
                                     std::strerror(errno),
                                     "a writable directory (XDG_CACHE_HOME names another)");
+        if (::flock(fd_, LOCK_EX | LOCK_NB) == 0)
+            return;
+        base::log_info("grass set: waiting for another process that bakes it");
         while (::flock(fd_, LOCK_EX) != 0 && errno == EINTR) {
         } // a file system without locks: two bakers then do the work twice, and one wins
     }
@@ -63,7 +66,7 @@ std::string reason_of(const base::Error& error) {
 void bake(const fs::path& preset, const fs::path& set) {
     base::log_info(fmt::format("grass set of {}: baked on first use, into {}",
                                base::printable(preset.native(), 200), set.native()));
-    std::vector<std::string> arguments = {preset.string(), "-o", set.string()};
+    std::vector<std::string> arguments = {fs::absolute(preset).string(), "-o", set.string()};
     if (base::verbosity() == base::Verbosity::kQuiet)
         arguments.emplace_back("-q");
     if (const int code = run_program(texgen_program(), arguments); code != 0)

@@ -1,1 +1,129 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "gl/program.h"
+
+#include <utility>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "gl/shader_source.h"
+
+namespace sward::gl {
+
+using base::Error;
+using base::ExitCode;
+
+namespace {
+
+GLenum stage_of(const std::filesystem::path& path) {
+    const std::string extension = path.extension().string();
+    if (extension == ".vert") return GL_VERTEX_SHADER;
+    if (extension == ".tesc") return GL_TESS_CONTROL_SHADER;
+    if (extension == ".tese") return GL_TESS_EVALUATION_SHADER;
+    if (extension == ".frag") return GL_FRAGMENT_SHADER;
+    if (extension == ".comp") return GL_COMPUTE_SHADER;
+    throw Error(ExitCode::kNoGpu, path.string() + ": shader: no stage has this extension");
+}
+
+/// A driver's log as one line: errors are one line by rule.
+std::string one_line(std::string log) {
+    while (!log.empty() && (log.back() == '\n' || log.back() == '\0')) {
+        log.pop_back();
+    }
+    for (std::size_t at; (at = log.find('\n')) != std::string::npos;) {
+        log.replace(at, 1, "; ");
+    }
+    return log;
+}
+
+GLuint compile(const std::filesystem::path& path, const std::vector<std::string>& defines) {
+    const ShaderSource source = expand_shader(path, defines);
+    const GLuint shader = glCreateShader(stage_of(path));
+    const char* text = source.text.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+        std::string log(16384, '\0');
+        GLsizei length = 0;
+        glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+        log.resize(static_cast<std::size_t>(length));
+        glDeleteShader(shader);
+        throw Error(ExitCode::kNoGpu, one_line(readable_log(log, source)));
+    }
+    return shader;
+}
+
+GLuint build(const std::string& name, const std::vector<std::filesystem::path>& stages,
+             const std::vector<std::string>& defines) {
+    const GLuint program = glCreateProgram();
+    try {
+        for (const auto& stage : stages) {
+            const GLuint shader = compile(stage, defines);
+            glAttachShader(program, shader);
+            glDeleteShader(shader); // lives on while attached
+        }
+        glLinkProgram(program);
+        GLint ok = 0;
+        glGetProgramiv(program, GL_LINK_STATUS, &ok);
+        if (!ok) {
+            std::string log(16384, '\0');
+            GLsizei length = 0;
+            glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
+            log.resize(static_cast<std::size_t>(length));
+            throw Error(ExitCode::kNoGpu, fmt::format("{}: link: {}", stages.front().string(), one_line(log)));
+        }
+    } catch (...) {
+        glDeleteProgram(program);
+        throw;
+    }
+    glObjectLabel(GL_PROGRAM, program, -1, name.c_str());
+    return program;
+}
+
+} // namespace
+
+Program::Program(std::string name, std::vector<std::filesystem::path> stages, std::vector<std::string> defines)
+    : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)), id_(build(name_, stages_, defines_)) {}
+
+Program::~Program() {
+    if (id_) {
+        glDeleteProgram(id_);
+    }
+}
+
+Program::Program(Program&& other) noexcept
+    : name_(std::move(other.name_)), stages_(std::move(other.stages_)), defines_(std::move(other.defines_)),
+      id_(std::exchange(other.id_, 0)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(name_, other.name_);
+    std::swap(stages_, other.stages_);
+    std::swap(defines_, other.defines_);
+    std::swap(id_, other.id_);
+    return *this;
+}
+
+void Program::use() const { glUseProgram(id_); }
+
+void Program::reload() {
+    const GLuint fresh = build(name_, stages_, defines_);
+    glDeleteProgram(std::exchange(id_, fresh));
+}
+
+void Program::set(const char* uniform, int value) const {
+    glProgramUniform1i(id_, glGetUniformLocation(id_, uniform), value);
+}
+void Program::set(const char* uniform, float value) const {
+    glProgramUniform1f(id_, glGetUniformLocation(id_, uniform), value);
+}
+void Program::set(const char* uniform, const glm::vec4& value) const {
+    glProgramUniform4f(id_, glGetUniformLocation(id_, uniform), value.x, value.y, value.z, value.w);
+}
+void Program::set(const char* uniform, const glm::ivec4& value) const {
+    glProgramUniform4i(id_, glGetUniformLocation(id_, uniform), value.x, value.y, value.z, value.w);
+}
+
+} // namespace sward::gl

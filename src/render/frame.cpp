@@ -1,1 +1,110 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <epoxy/gl.h>
+
+#include "blades/blade_tiles.h"
+#include "render/impl.h"
+#include "shared/bindings.h"
+#include "shells/far_instances.h"
+
+namespace sward::render {
+
+namespace {
+
+void set_gl_state() {
+    glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GREATER);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glEnable(GL_MULTISAMPLE);
+    constexpr float kClear[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_DEPTH, 0, kClear);
+}
+
+bool draws_blades(const FrameSettings& settings) { return settings.blades && settings.tiers != Tiers::kShells; }
+bool draws_far(const FrameSettings& settings) { return settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells; }
+
+} // namespace
+
+void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
+    const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
+                                            {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
+                                             shot.constants.mode.x});
+    cull.upload(tiles);
+    blade_records.bind_storage(BIND_BLADES);
+    for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
+        {
+            const gl::PassScope pass(timers, "cull blades");
+            cull.execute(batch);
+        }
+        const gl::PassScope pass(timers, "draw blades");
+        passes(settings.aov).blades.execute(cull);
+    }
+    counts.blades_considered += tiles.considered;
+    counts.blades_drawn += cull.drawn();
+}
+
+void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
+    const int grid = pictures > 1 ? settings.reference_grid : 1;
+    const glm::dvec2 jitter = (glm::dvec2(picture % grid, picture / grid) + 0.5) / static_cast<double>(grid) - 0.5;
+    const Shot shot = make_shot(view, settings, jitter);
+    const shared::FrameConstants& constants = shot.constants;
+    DrawPasses& draw = passes(settings.aov);
+
+    // Constants of the view: every pass below reads them.
+    frame_buffer.upload(&constants, sizeof(constants));
+    frame_buffer.bind_uniform(BIND_FRAME);
+
+    // The ground around the eye, and what lies in view of it.
+    {
+        const gl::PassScope pass(timers, "clipmap");
+        clipmap.update({shot.anchor.x + constants.eye.x, shot.anchor.z + constants.eye.z});
+        clipmap.bind();
+        far_appearance.update(constants.light);
+        far_appearance.bind();
+    }
+    const auto blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);
+    const auto far = shells::select_far(world.grass, blocks, shot.bands,
+                                        {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level});
+
+    targets.bind_scene();
+    set_gl_state();
+    if (settings.terrain) {
+        const gl::PassScope pass(timers, "terrain");
+        draw.terrain.execute(blocks, block_mesh);
+    }
+    if (draws_blades(settings)) {
+        draw_blades(settings, shot);
+    }
+    if (draws_far(settings) && settings.shells) {
+        const gl::PassScope pass(timers, "shells");
+        draw.shells.execute({far_textures, far.shells, block_mesh});
+    }
+    if (draws_far(settings) && settings.slices) {
+        const gl::PassScope pass(timers, "slices");
+        draw.slices.execute({far_textures, far.slices, block_mesh});
+    }
+    if (settings.sky) {
+        const gl::PassScope pass(timers, "sky");
+        draw.screen.sky();
+    }
+    const gl::PassScope pass(timers, "resolve");
+    draw.screen.resolve(targets, settings.samples, 1.0f / static_cast<float>(pictures), picture == 0);
+}
+
+void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings) {
+    counts = {};
+    last_settings = settings;
+    timers.begin_frame();
+    targets.require(settings.width, settings.height, settings.samples, settings.aov);
+    const int pictures = settings.tiers == Tiers::kReference ? settings.reference_grid * settings.reference_grid : 1;
+    for (int picture = 0; picture < pictures; ++picture) {
+        draw_picture(view, settings, picture, pictures);
+    }
+    const gl::PassScope pass(timers, "tone map");
+    passes(settings.aov).screen.tone_map(targets, settings.exposure);
+}
+
+} // namespace sward::render

@@ -1,1 +1,134 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "render/renderer.h"
+
+#include <numeric>
+
+#include <epoxy/gl.h>
+
+#include "base/error.h"
+#include "gl/context.h"
+#include "gl/memory.h"
+#include "render/impl.h"
+
+namespace sward::render {
+
+namespace {
+
+/// Bend per m/s. Stiffer blades answer less; the canopy takes the mean, so that both tiers lean alike.
+double wind_response(const grass::GrassSet& set) {
+    double stiffness = 0;
+    for (const shared::BladeRecord& blade : set.blades) {
+        stiffness += blade.v2.w;
+    }
+    stiffness /= static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
+    return 0.14 * (1.3 - stiffness);
+}
+
+double mean_width(const grass::GrassSet& set) {
+    double sum = 0;
+    for (const shared::BladeRecord& blade : set.blades) {
+        sum += 2.0 * blade.v1.w;
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
+}
+
+} // namespace
+
+Renderer::Impl::Impl(World inputs)
+    : world(std::move(inputs)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
+      wind(world.scene.wind, wind_response(world.grass)), far_textures(world.grass), far_appearance(world.grass),
+      blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
+      mean_blade_width_m(mean_width(world.grass)) {
+    // The GPU holds the images now; tens of megabytes are freed here.
+    for (grass::FarLevel& level : world.grass.levels) {
+        level.layers.mips.clear();
+        level.layers.mips.shrink_to_fit();
+        level.slices.mips.clear();
+        level.slices.mips.shrink_to_fit();
+    }
+}
+
+DrawPasses& Renderer::Impl::passes(bool aov) {
+    auto& slot = aov ? aov_passes : plain_passes;
+    if (!slot) {
+        slot = std::make_unique<DrawPasses>(aov);
+    }
+    return *slot;
+}
+
+void DrawPasses::reload(std::vector<std::string>& failures) {
+    const auto attempt = [&](auto& pass) {
+        try {
+            pass.reload();
+        } catch (const base::Error& error) {
+            failures.emplace_back(error.what());
+        }
+    };
+    attempt(terrain);
+    attempt(blades);
+    attempt(shells);
+    attempt(slices);
+    attempt(screen);
+}
+
+Renderer::Renderer(World world) {
+    gl::require_gl45();
+    impl_ = std::make_unique<Impl>(std::move(world));
+}
+Renderer::~Renderer() = default;
+
+void Renderer::draw(const View& view, const FrameSettings& settings) { impl_->draw_frame(view, settings); }
+
+void Renderer::present(std::uint32_t fbo, int x, int y) {
+    const Targets& targets = impl_->targets;
+    glBlitNamedFramebuffer(targets.display().id(), fbo, 0, 0, targets.width(), targets.height(), x, y, x + targets.width(),
+                           y + targets.height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+FrameStats Renderer::stats() {
+    FrameStats stats = impl_->counts;
+    for (const auto& row : impl_->timers.rows()) {
+        stats.passes.push_back({row.name, row.gpu_ms, row.cpu_ms});
+    }
+    const FrameSettings& settings = impl_->last_settings;
+    if (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells) {
+        const auto samples = static_cast<std::uint64_t>(settings.samples);
+        DrawPasses& passes = impl_->passes(settings.aov);
+        stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
+        stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
+    }
+    stats.gpu_bytes = gl::gpu_bytes();
+    return stats;
+}
+
+double Renderer::ground_height(double x, double z) const { return impl_->surface.height(x, z); }
+
+scene::Pose Renderer::above_datum(const scene::Pose& pose) const {
+    scene::Pose out = pose;
+    if (pose.agl) {
+        out.position.y += ground_height(pose.position.x, pose.position.z);
+        out.agl = false;
+    }
+    return out;
+}
+
+glm::dvec2 Renderer::wind_at(double x, double z, double time_s) const { return impl_->wind.at(x, z, time_s); }
+
+std::vector<std::string> Renderer::reload_shaders() {
+    std::vector<std::string> failures;
+    for (auto* passes : {impl_->plain_passes.get(), impl_->aov_passes.get()}) {
+        if (passes) {
+            passes->reload(failures);
+        }
+    }
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }}) {
+        try {
+            reload(*impl_);
+        } catch (const base::Error& error) {
+            failures.emplace_back(error.what());
+        }
+    }
+    return failures;
+}
+
+} // namespace sward::render

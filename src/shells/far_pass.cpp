@@ -1,1 +1,83 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "shells/far_pass.h"
+
+#include <epoxy/gl.h>
+
+#include "shared/bindings.h"
+
+namespace sward::shells {
+
+namespace {
+
+constexpr int kColumns = terrain::Clipmap::kBlockCells; // of a slice's strip
+constexpr int kRows = 3;                                // enough for its bend; each costs 9 vertices a slice
+
+std::vector<std::string> defines(FarPass::Family family, bool aov) {
+    std::vector<std::string> out;
+    if (family == FarPass::Family::kSlices) {
+        out.emplace_back("SLICES");
+    }
+    if (aov) {
+        out.emplace_back("AOV");
+    }
+    return out;
+}
+
+gl::Buffer strip_indices() {
+    std::vector<std::uint16_t> indices;
+    for (int row = 0; row < kRows; ++row) {
+        for (int column = 0; column < kColumns; ++column) {
+            const int at = row * (kColumns + 1) + column;
+            for (const int corner : {at, at + 1, at + kColumns + 1, at + 1, at + kColumns + 2, at + kColumns + 1}) {
+                indices.push_back(static_cast<std::uint16_t>(corner));
+            }
+        }
+    }
+    return gl::Buffer::of(std::span<const std::uint16_t>(indices));
+}
+
+} // namespace
+
+FarPass::FarPass(Family family, bool aov)
+    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov)),
+      strip_(strip_indices()) {
+    glCreateVertexArrays(1, &strip_array_);
+    glVertexArrayElementBuffer(strip_array_, strip_.id());
+    glCreateQueries(GL_SAMPLES_PASSED, 1, &query_);
+}
+
+FarPass::~FarPass() {
+    glDeleteVertexArrays(1, &strip_array_);
+    glDeleteQueries(1, &query_);
+}
+
+void FarPass::execute(const Inputs& inputs) {
+    program_.use();
+    glBeginQuery(GL_SAMPLES_PASSED, query_);
+    for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
+        const auto& list = inputs.instances[k];
+        if (list.empty()) {
+            continue;
+        }
+        const FarTextures::Level& level = inputs.textures.levels()[k];
+        (family_ == Family::kShells ? level.layers : level.slices).bind(TEX_FAR_IMAGES);
+        instances_.reserve(list.size() * sizeof(shared::FarInstance));
+        instances_.upload(list.data(), list.size() * sizeof(shared::FarInstance));
+        instances_.bind_storage(BIND_FAR_INSTANCES);
+        if (family_ == Family::kShells) {
+            inputs.mesh.draw(static_cast<int>(list.size()));
+        } else {
+            glBindVertexArray(strip_array_);
+            glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * kRows, GL_UNSIGNED_SHORT, nullptr, static_cast<GLsizei>(list.size()));
+        }
+    }
+    glEndQuery(GL_SAMPLES_PASSED);
+}
+
+std::uint64_t FarPass::samples_passed() const {
+    GLuint64 passed = 0;
+    glGetQueryObjectui64v(query_, GL_QUERY_RESULT, &passed);
+    return passed;
+}
+
+} // namespace sward::shells

@@ -1,1 +1,122 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "terrain/clipmap.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "shared/bindings.h"
+#include "shared/surface.h"
+
+namespace sward::terrain {
+
+namespace {
+
+int level_count(const scene::Heightfield& elevation) {
+    const glm::dvec2 extent = elevation.extent_m();
+    const double reach = std::max(extent.x, extent.y);
+    const int levels = 1 + static_cast<int>(std::ceil(std::log2(std::max(reach / (54 * Clipmap::kFinest_m), 1.0))));
+    return std::clamp(levels, 6, shared::kMaxClipLevels);
+}
+
+gl::Texture posts_texture(const scene::Heightfield& elevation) {
+    GLint limit = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+    if (elevation.width > limit || elevation.height > limit) {
+        throw base::Error(base::ExitCode::kOverLimit, fmt::format("elevation: found {} x {} posts, expected at most {} a side",
+                                                                  elevation.width, elevation.height, limit));
+    }
+    gl::Texture texture(GL_R32F, {elevation.width, elevation.height});
+    texture.upload(0, GL_RED, GL_FLOAT, elevation.metres.data());
+    texture.set_filter(GL_NEAREST, GL_NEAREST);
+    return texture;
+}
+
+gl::Texture mask_texture(const scene::DensityMask& mask) {
+    static constexpr float kOne = 1;
+    const bool given = mask.width > 0;
+    gl::Texture texture(GL_R8, {given ? mask.width : 1, given ? mask.height : 1});
+    texture.upload(0, GL_RED, GL_FLOAT, given ? mask.density.data() : &kOne);
+    texture.set_filter(GL_LINEAR, GL_LINEAR);
+    texture.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    return texture;
+}
+
+gl::Texture level_texture(std::uint32_t format, int levels) {
+    gl::Texture texture(format, {shared::kClipCells, shared::kClipCells, levels});
+    texture.set_filter(GL_LINEAR, GL_LINEAR);
+    texture.set_wrap(GL_REPEAT, GL_REPEAT);
+    return texture;
+}
+
+} // namespace
+
+Clipmap::Clipmap(const Surface& surface, const scene::DensityMask& mask)
+    : surface_(surface), windows_(static_cast<std::size_t>(level_count(surface.elevation()))),
+      elevation_(posts_texture(surface.elevation())), mask_(mask_texture(mask)),
+      heights_(level_texture(GL_R32F, levels())), surfaces_(level_texture(GL_RGBA8, levels())),
+      params_(sizeof(shared::SurfaceParams)), height_program_("clipmap height", {"terrain/clipmap_height.comp"}),
+      surface_program_("clipmap surface", {"terrain/clipmap_surface.comp"}), has_mask_(mask.width > 0) {}
+
+void Clipmap::update(glm::dvec2 eye) {
+    for (int level = 0; level < levels(); ++level) {
+        const glm::dvec2 snapped = glm::round(eye / (spacing(level) * kSnapCells)) * static_cast<double>(kSnapCells);
+        const Window window{glm::ivec2(snapped) - shared::kClipCells / 2};
+        Window& present = windows_[static_cast<std::size_t>(level)];
+        if (!filled_ || window != present) {
+            present = window;
+            fill(level);
+        }
+    }
+    filled_ = true;
+}
+
+void Clipmap::fill(int level) {
+    const scene::Heightfield& posts = surface_.elevation();
+    const auto index = static_cast<std::size_t>(level);
+    shared::SurfaceParams params{};
+    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
+    params.relief = {surface_.relief_m(), 0, has_mask_ ? 1 : 0, 0};
+    params.level = {windows_[index].first.x, windows_[index].first.y, level, 0};
+    params.step = {spacing(level), 0, 0, 0};
+    params_.upload(&params, sizeof(params));
+    params_.bind_uniform(BIND_SURFACE);
+    elevation_.bind(TEX_ELEVATION);
+    mask_.bind(TEX_MASK);
+    constexpr GLuint kGroups = shared::kClipCells / CLIP_GROUP;
+    height_program_.use();
+    glBindImageTexture(0, heights_.id(), 0, GL_FALSE, level, GL_WRITE_ONLY, GL_R32F);
+    glDispatchCompute(kGroups, kGroups, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+    surface_program_.use();
+    heights_.bind(TEX_CLIP_HEIGHT);
+    glBindImageTexture(0, surfaces_.id(), 0, GL_FALSE, level, GL_WRITE_ONLY, GL_RGBA8);
+    glDispatchCompute(kGroups, kGroups, 1);
+    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}
+
+void Clipmap::bind() const {
+    heights_.bind(TEX_CLIP_HEIGHT);
+    surfaces_.bind(TEX_CLIP_SURFACE);
+}
+
+void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
+    frame.clip_layout = {levels(), 0, 0, 0};
+    for (int level = 0; level < levels(); ++level) {
+        const double period = spacing(level) * shared::kClipCells;
+        // Post g is the centre of texel g mod 128: half a texel further.
+        const glm::dvec2 offset = glm::fract(anchor / period) + 0.5 / shared::kClipCells;
+        frame.clip[level] = {offset.x, offset.y, 1 / period, spacing(level)};
+    }
+}
+
+void Clipmap::reload() {
+    height_program_.reload();
+    surface_program_.reload();
+    filled_ = false;
+}
+
+} // namespace sward::terrain

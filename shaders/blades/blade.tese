@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a posed blade. Out: its surface (J8): quadratic outline, fold along the middle, pixel-width correction.
+#include "lib/frame.glsl"
+#include "shared/blade.h"
+
+layout(quads, equal_spacing, ccw) in;
+
+in BladeControl {
+    vec4 root;
+    vec4 v1;
+    vec4 v2;
+    vec4 rest;
+    vec4 ground;
+} blade_in[];
+
+out vec3 world;
+out vec3 tangent;
+out vec3 normal;
+out vec2 along;       // place along the blade; rest height over the canopy's
+flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
+flat out float tint;
+
+void main() {
+    float u = gl_TessCoord.x;
+    float v = gl_TessCoord.y;
+    vec3 v1 = blade_in[0].v1.xyz;
+    vec3 v2 = blade_in[0].v2.xyz;
+    float half_width = blade_in[0].v1.w;
+    vec3 centre = blade_in[0].root.xyz + blade_curve(v1, v2, v);
+    vec3 t0 = blade_tangent(v1, v2, v);
+    vec3 t1 = blade_width_direction(blade_in[0].v2.w);
+    vec3 n = normalize(cross(t0, t1));
+    float pixels = 2.0 * half_width * frame.eye.w / max(distance(centre, frame.eye.xyz), 0.05);
+    float phi = 1.0 - clamp((pixels - frame.handover.z) / frame.handover.w, 0.0, 1.0);
+    float t = mix(blade_outline(u, v), u, phi * phi);
+    world = centre + t1 * (half_width * (2.0 * t - 1.0));
+    world += n * (half_width * (0.5 - abs(u - 0.5)) * (1.0 - v));
+    tangent = t0;
+    normal = n;
+    along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
+    own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
+    tint = blade_in[0].ground.y;
+    gl_Position = frame.clip_from_world * vec4(world, 1.0);
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: survivors of the cull pass. Out: a posed blade (J1, W3, B3) for the tessellator.
+#include "lib/blade_place.glsl"
+#include "lib/wind.glsl"
+#include "shared/bend.h"
+
+layout(std430, binding = BIND_VISIBLE) readonly buffer Visible { uvec2 visible[]; };
+
+out BladeVertex {
+    vec4 root;  // world; w: distance from the place that tier selection measures from
+    vec4 v1;    // relative to the root; w: half width
+    vec4 v2;    // relative to the root; w: facing
+    vec4 rest;  // rest heights of v1 and v2 over the canopy's; rank; seed
+    vec4 ground; // cosine ground to sun; tint
+} blade_out;
+
+void main() {
+    uvec2 which = visible[gl_VertexID];
+    BladeRecord blade = blades[which.y];
+    vec3 root = blade_root(which.x, blade);
+    Ground ground = ground_surface(root.xz);
+    float from_eye = distance(root, frame.lod_eye.xyz);
+    float canopy = frame.patch_grid.w;
+    vec3 v1 = blade.v1.xyz;
+    vec3 v2 = blade.v2.xyz;
+    float shell = pose_share(blade.root.z, from_eye, frame.pose_band.xy);
+    pose_blade(v1, v2, vec4(blade.shape.y, canopy, frame.wind.mean.w, shell), wind_at(root.xz));
+    blade_out.root = vec4(root, from_eye);
+    blade_out.v1 = vec4(v1, blade.v1.w);
+    blade_out.v2 = vec4(v2, blade.shape.x);
+    blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, 0.0, 0.0);
+    gl_Position = vec4(0.0);
+}

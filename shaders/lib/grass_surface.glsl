@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last step of every grass fragment, near or far: colour, light, air.
+#include "lib/frame.glsl"
+#include "lib/output.glsl"
+
+// What a tier knows of a fragment's blade.
+struct GrassSample {
+    vec3 world;
+    vec3 tangent; // unit
+    vec3 normal;
+    float rank, seed;
+    float along;  // place along the blade, 0 root .. 1 tip
+    float height; // at rest, over the canopy's
+    float slope;  // cosine between ground and sun
+    float tint;
+    float tier;
+};
+
+void write_grass(GrassSample s) {
+    vec3 from_eye = s.world - frame.eye.xyz;
+    float distance_m = length(from_eye);
+    vec3 to_eye = -from_eye / distance_m;
+    vec3 albedo = blade_albedo(frame.look, s.rank, s.seed, s.along) * sward_tint(s.tint);
+    GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
+    vec3 radiance = apply_haze(frame.light, shade_grass(frame.look, frame.light, point, to_eye), distance_m, -to_eye);
+    write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ground as every tier sees it: the clipmap, blended between levels so that nothing cracks or pops. World xz in.
+#include "lib/frame.glsl"
+
+layout(binding = TEX_CLIP_HEIGHT) uniform sampler2DArray clip_height;
+layout(binding = TEX_CLIP_SURFACE) uniform sampler2DArray clip_surface;
+
+// A level is whole out to 56 cells from the eye (its window moves in steps of 16); it dissolves into the next before that.
+const float kBlendStart = 40.0;
+const float kBlendEnd = 54.0;
+
+struct ClipPlace {
+    int level;
+    float blend; // share of the next level
+};
+
+ClipPlace clip_place(vec2 xz) {
+    vec2 from_eye = abs(xz - frame.eye.xz);
+    float cells = max(from_eye.x, from_eye.y) / frame.clip[0].w;
+    int last = frame.clip_layout.x - 1;
+    int level = int(clamp(ceil(log2(max(cells / kBlendEnd, 1e-3))), 0.0, float(last)));
+    float own = cells / float(1 << level);
+    float blend = level == last ? 0.0 : clamp((own - kBlendStart) / (kBlendEnd - kBlendStart), 0.0, 1.0);
+    return ClipPlace(level, blend);
+}
+
+vec3 clip_uv(vec2 xz, int level) {
+    vec4 clip = frame.clip[level];
+    return vec3(xz * clip.z + clip.xy, float(level));
+}
+
+// Height of the ground, world y.
+float ground_at(vec2 xz) {
+    ClipPlace place = clip_place(xz);
+    float fine = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r;
+    float coarse = textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0).r;
+    return mix(fine, coarse, place.blend) - frame.grass.w;
+}
+
+struct Ground {
+    vec3 normal;
+    float density; // of grass, 0..1, the scene's scale included
+    float tint;    // slow variation of soil and sward, 0..1
+};
+
+Ground ground_surface(vec2 xz) {
+    ClipPlace place = clip_place(xz);
+    vec4 fine = textureLod(clip_surface, clip_uv(xz, place.level), 0.0);
+    vec4 coarse = textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0);
+    vec4 s = mix(fine, coarse, place.blend);
+    vec2 n = (s.xy * 255.0 - 128.0) / 127.0;
+    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), s.z * frame.grass.y, s.w);
+}

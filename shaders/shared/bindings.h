@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binding points and workgroup sizes: names that C++ and every shader share. docs/architecture.md says who binds what.
+#ifndef SWARD_SHARED_BINDINGS_H
+#define SWARD_SHARED_BINDINGS_H
+
+// Uniform blocks.
+#define BIND_FRAME 0
+#define BIND_SURFACE 1
+
+// Storage blocks.
+#define BIND_BLADES 0          // BladeRecord[], the set's
+#define BIND_BLADE_TILES 1     // BladeTile[], the tiles around the eye
+#define BIND_CULL_ITEMS 2      // uvec2[]: tile, first blade of a workgroup
+#define BIND_SEGMENTS 3        // uvec2[]: survivors of each workgroup in its own segment: tile, blade
+#define BIND_SEGMENT_COUNTS 4  // uint[]: survivors of each workgroup
+#define BIND_VISIBLE 5         // uvec2[]: survivors of all workgroups, in order
+#define BIND_DRAW_COMMAND 6    // DrawArraysIndirectCommand and the counters
+#define BIND_TERRAIN_BLOCKS 7  // TerrainBlock[]
+#define BIND_FAR_INSTANCES 8   // FarInstance[]
+
+// Texture units.
+#define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
+#define TEX_CLIP_SURFACE 1     // RGBA8 array: normal x, z, density, tint
+#define TEX_FAR_IMAGES 2       // RGBA8 array: layers or slices of one far level
+#define TEX_FAR_APPEARANCE 3   // RGBA16F: canopy radiance and coverage by view azimuth, elevation
+#define TEX_ELEVATION 4        // R32F: the posts
+#define TEX_MASK 5             // R8: density mask
+#define TEX_RESOLVE_COLOR 6
+#define TEX_RESOLVE_DATA 7
+#define TEX_RESOLVE_TANGENT 8
+#define TEX_RESOLVE_NORMAL 9
+#define TEX_RESOLVE_DEPTH 10
+
+#define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
+#define CLIP_GROUP 8           // clipmap update: 8 x 8 texels
+
+// Fragment outputs.
+#define OUT_COLOR 0
+#define OUT_DATA 1             // tier, coverage, rank
+#define OUT_TANGENT 2
+#define OUT_NORMAL 3
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Constants of one view of one frame, uploaded once. "World" in shaders is relative to the anchor: a point near the eye on a
+// 64 m grid (x, z) and a whole metre (y), chosen on the CPU in double precision.
+#ifndef SWARD_SHARED_FRAME_H
+#define SWARD_SHARED_FRAME_H
+#include "shared/grass_layout.h"
+#include "shared/lod.h"
+#include "shared/shading.h"
+#include "shared/types.h"
+#include "shared/wind.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kMaxClipLevels = 16;
+SHARED_CONST float kNear_m = 0.05f; // near plane; reversed depth holds near / distance
+SHARED_CONST int kClipCells = 128; // posts a side of a clipmap level; memory grows with its square
+
+struct FrameConstants {
+    mat4 clip_from_world;
+    mat4 world_from_clip;
+    vec4 eye;         // world; w: focal length in pixels (pixels a metre covers at one metre)
+    vec4 lod_eye;     // world place that tier selection measures from; w: time (s)
+    vec4 viewport;    // width, height, 1 / width, 1 / height (pixels)
+    vec4 patch_grid;  // offset of the anchor in its patch x, z (m); side (m); canopy (m)
+    ivec4 patch_tile; // tile of the anchor x, z; variants; far levels
+    vec4 grass;       // offset range (m), density scale, 1 where the ground takes over from the shells, anchor above the datum (m)
+    ivec4 mode;       // hand-over mode; forced far level or -1; 1 when the far tier stands alone; unused
+    vec4 handover;    // band from blades to far level 0: start, end (m); width correction: wmin, wspan (pixels)
+    vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; unused
+    vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
+    ivec4 clip_layout;             // levels of the clipmap; unused
+    vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
+    GrassAppearance look;
+    Light light;
+    WindField wind;
+    vec4 ground_colours[4]; // soil, bare rock, sward seen from afar (tint), unused; a: unused
+};
+#ifdef __cplusplus
+static_assert(sizeof(FrameConstants) == 128 + 16 * 9 + 64 + 16 + 256 + 64 + 64 + 112 + 64);
+#endif
+
+// A block of 8 x 8 cells of one clipmap level. 16 bytes.
+struct TerrainBlock {
+    vec4 place; // world x, z of its corner (m); spacing (m); level
+};
+
+// A tile of the grass patch near the eye. 16 bytes.
+struct BladeTile {
+    vec4 place; // world x, z of its corner (m); first blade of its variant; unused
+};
+
+// A shell or a slice of one block. 32 bytes.
+struct FarInstance {
+    vec4 place; // shells: world x, z of the block's corner, cell (m), rest height (m); slices: plane's own coordinate, start
+                // along the plane, cell (m), unused
+    ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
+};
+#ifdef __cplusplus
+static_assert(sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(FarInstance) == 32);
+#endif
+
+SHARED_END
+#endif

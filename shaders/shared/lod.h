@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The hand-over: which tier shows a blade. One function, called by the blade culling and by every shell and slice
+// fragment, so that each blade is drawn by exactly one tier.
+#ifndef SWARD_SHARED_LOD_H
+#define SWARD_SHARED_LOD_H
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kMaxFarLevels = 4;
+SHARED_CONST int kHandoverRank = 0; // ships: blade by blade, by rank
+SHARED_CONST int kHandoverOff = 1;  // tests: both tiers whole in the band
+SHARED_CONST int kHandoverHard = 2; // tests: all at one distance
+SHARED_CONST int kHandoverFade = 3; // tests: every blade by the same pixel dither
+
+// Share of rank over which a single blade's swap is dithered, pixel by pixel. Wider is softer and costs double fragments
+// for that share of the band's blades.
+SHARED_CONST float kSwapWidth = 0.06f;
+
+// g(d): share of the blades that are still on the near side of a band (start, end) at distance d; smooth, 1 to 0.
+SHARED_FN float handover_share(float distance_m, vec2 band) {
+    float t = clamp((distance_m - band.x) / max(band.y - band.x, 1e-6f), 0.0f, 1.0f);
+    return 1.0f - t * t * (3.0f - 2.0f * t);
+}
+
+// True on the near side of the band. `dither` in (0, 1) is the pixel's threshold: with the same one, near and far are
+// exact complements, and at share 1 (0) every (no) blade is near whatever its rank.
+SHARED_FN bool handover_near(float rank, float distance_m, vec2 band, float dither, int mode) {
+    float share = handover_share(distance_m, band);
+    if (mode == kHandoverHard) {
+        return share > 0.5f;
+    }
+    if (mode == kHandoverFade) {
+        return dither < share;
+    }
+    return rank + (dither - 0.5f) * kSwapWidth < mix(-0.5f * kSwapWidth, 1.0f + 0.5f * kSwapWidth, share);
+}
+
+// Could any pixel of this blade be near? For culling, which knows no pixels.
+SHARED_FN bool handover_may_be_near(float rank, float distance_m, vec2 band, int mode) {
+    if (mode == kHandoverOff) {
+        return distance_m < band.y;
+    }
+    return handover_near(rank, distance_m, band, 0.0f, mode);
+}
+
+// Distance at which g equals `share`: the smoothstep inverted.
+SHARED_FN float handover_distance(float share, vec2 band) {
+    float x = 1.0f - clamp(share, 0.0f, 1.0f);
+    float t = 0.5f - sin(asin(1.0f - 2.0f * x) / 3.0f);
+    return mix(band.x, band.y, t);
+}
+
+// How far a blade's pose has moved to its shell image's, 0..1: complete before its own swap begins.
+SHARED_FN float pose_share(float rank, float distance_m, vec2 band) {
+    float swap = handover_distance(min(rank + kSwapWidth, 1.0f), band);
+    return smoothstep(0.55f * swap, 0.92f * swap, distance_m);
+}
+
+// Threshold of a pixel on a 4 x 4 ordered grid, (n + 0.5) / 16 (Bayer 1973).
+SHARED_FN float pixel_threshold(ivec2 pixel) {
+    int x = pixel.x & 3;
+    int y = pixel.y & 3;
+    int a = x ^ y;
+    int n = ((a & 1) << 3) | ((y & 1) << 2) | (a & 2) | ((y & 2) >> 1);
+    return (float(n) + 0.5f) / 16.0f;
+}
+
+// The slice families' share: a slice across an axis shows a blade while seed / density < |component| of the unit
+// horizontal view direction, so that the two families never add to more than the blade has.
+SHARED_FN bool slice_shows(float seed, float density, float direction_component) {
+    return seed < density * abs(direction_component);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one shading function of grass: Kajiya-Kay / Banks (G4) with canopy darkening, for blades, shells, slices and the
+// far appearance. Linear radiance; colours are reflectances.
+#ifndef SWARD_SHARED_SHADING_H
+#define SWARD_SHARED_SHADING_H
+#include "shared/grass_layout.h"
+#include "shared/hash.h"
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// Sun and sky, linear. 64 bytes.
+struct Light {
+    vec4 to_sun;  // unit direction; w: extinction of sunlight by the whole canopy at zenith (optical depth)
+    vec4 sun;     // rgb irradiance on a plane facing the sun / pi; w: haze per metre
+    vec4 zenith;  // rgb sky radiance overhead; w: extinction of skylight by the whole canopy
+    vec4 horizon; // rgb sky radiance at the horizon; w: exposure
+};
+#ifdef __cplusplus
+static_assert(sizeof(Light) == 64);
+#endif
+
+// Colour of a blade at place v along it (0 root .. 1 tip). rank and seed make it this blade's own, in every tier.
+SHARED_FN vec3 blade_albedo(GrassAppearance look, float rank, float seed, float v) {
+    uint h = hash_pcg(uint(rank * 256.0f) * 256u + uint(seed * 256.0f));
+    float hue = hash_to_unit(h) - 0.5f;
+    float value = hash_to_unit(hash_pcg(h)) - 0.5f;
+    float dryness = hash_to_unit(hash_pcg(h + 1u));
+    vec3 colour = mix(vec3(look.root), vec3(look.tip), v);
+    colour = colour * (1.0f + look.tip.w * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
+    // A dry blade is dry all over; many others are only at the tip.
+    float dry = dryness < look.root.w ? 0.85f : dryness > 0.6f ? 0.5f * smoothstep(0.75f, 1.0f, v) : 0.0f;
+    return max(mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), dry), vec3(0.0f, 0.0f, 0.0f));
+}
+
+// Slow variation of a meadow's colour, the same for blades, shells and the ground that stands for them; tint 0..1.
+SHARED_FN vec3 sward_tint(float tint) {
+    return mix(vec3(0.82f, 0.98f, 0.85f), vec3(1.25f, 1.02f, 0.95f), tint);
+}
+
+// Sunlight that reaches relative height h (0 ground .. 1 top) of a canopy whose ground's normal is at cosine `slope` to the
+// sun: the path through the canopy grows as the ground turns away, and ends in the hill's own shadow.
+SHARED_FN float canopy_sun(Light light, float h, float slope) {
+    return exp(-light.to_sun.w * (1.0f - h) / max(slope, 0.12f)) * smoothstep(-0.08f, 0.2f, slope);
+}
+
+// Skylight likewise: the sky is above, whatever the sun does.
+SHARED_FN float canopy_sky(Light light, float h) {
+    return exp(-light.zenith.w * (1.0f - h));
+}
+
+// A point of a blade, to be shaded.
+struct GrassPoint {
+    vec3 albedo;
+    vec3 tangent; // unit
+    float height; // of the point at rest, 0 ground .. 1 top of the canopy
+    float slope;  // cosine between the ground's normal and the sun
+};
+
+// Radiance toward the eye (unit direction to_eye) of grass.
+SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
+    vec3 sun_way = vec3(light.to_sun);
+    float tl = dot(point.tangent, sun_way);
+    float th = dot(point.tangent, normalize(sun_way + to_eye));
+    float diffuse = look.light.x * pow(max(1.0f - tl * tl, 0.0f), 0.5f * look.light.y);
+    float specular = look.light.z * pow(max(1.0f - th * th, 0.0f), 0.5f * look.light.w);
+    // Against the light a blade glows: transmitted sunlight is yellower than reflected.
+    float against = 0.5f - 0.5f * dot(to_eye, sun_way);
+    vec3 glow = point.albedo * vec3(1.25f, 1.15f, 0.5f) * (look.dry.w * against * against * against);
+    vec3 sky = mix(vec3(light.horizon), vec3(light.zenith), 0.6f) * canopy_sky(light, point.height);
+    vec3 sun = vec3(light.sun) * canopy_sun(light, point.height, point.slope);
+    return sun * ((point.albedo + glow) * diffuse + vec3(specular, specular, specular)) + sky * point.albedo;
+}
+
+// Radiance of bare ground under `density` of canopy (0 open).
+SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) {
+    float slope = dot(normal, vec3(light.to_sun));
+    float sun = mix(max(slope, 0.0f), max(slope, 0.0f) * canopy_sun(light, 0.0f, slope), density);
+    float sky = mix(1.0f, canopy_sky(light, 0.0f), density) * (0.5f + 0.5f * normal.y);
+    return albedo * (vec3(light.sun) * sun + mix(vec3(light.horizon), vec3(light.zenith), 0.6f) * sky);
+}
+
+// Sky radiance in a unit direction.
+SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
+    float up = max(direction.y, 0.0f);
+    vec3 sky = mix(vec3(light.horizon), vec3(light.zenith), 1.0f - pow(1.0f - up, 4.0f));
+    float toward = max(dot(direction, vec3(light.to_sun)), 0.0f);
+    float halo = 0.12f * pow(toward, 8.0f) + 0.35f * pow(toward, 64.0f);
+    return sky + vec3(light.sun) * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;
+}
+
+// Air between the eye and a surface: fades to the horizon's colour in that direction.
+SHARED_FN vec3 apply_haze(Light light, vec3 radiance, float distance_m, vec3 direction) {
+    float clear = exp(-distance_m * light.sun.w);
+    vec3 level = normalize(vec3(direction.x, 0.02f, direction.z));
+    return mix(sky_radiance(light, level), radiance, clear);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a shell or slice. Out: the blades of its slab that are this tier's and this level's to show, each decided at its own root
+// by the hand-over that the blade culling calls too.
+#include "lib/grass_surface.glsl"
+#include "shared/blade.h"
+
+layout(binding = TEX_FAR_IMAGES) uniform sampler2DArray far_images;
+
+in vec3 world;
+in vec3 rest;
+in vec4 ground_here;
+in vec2 ground_slope;
+flat in ivec4 image;
+
+// Texels are as wide as a pixel from here on: above 0 coarser, cheaper for caches, and blades break up sooner.
+const float kMipBias = -0.35;
+
+bool own_blade(float rank, float seed, vec3 root, float dither) {
+    float density = ground_here.y;
+    if (seed >= density) {
+        return false;
+    }
+#ifdef SLICES
+    vec2 view = normalize(root.xz - frame.eye.xz);
+    if (!slice_shows(seed, density, image.z == kAxisX ? view.x : view.y)) {
+        return false;
+    }
+#endif
+    float from_eye = distance(root, frame.lod_eye.xyz);
+    int level = image.w;
+    if (frame.mode.y >= 0) { // one level forced, out to the far tier's end
+        return from_eye < frame.far_bands[frame.patch_tile.w - 1].w;
+    }
+    vec4 band = frame.far_bands[level];
+    if (level == 0) {
+        bool near = handover_near(rank, from_eye, band.xy, dither, frame.mode.x);
+        if (frame.mode.z == 0 && (frame.mode.x == kHandoverOff ? from_eye < band.x : near)) {
+            return false;
+        }
+    } else if (handover_near(rank, from_eye, band.xy, dither, kHandoverRank)) {
+        return false;
+    }
+    return handover_near(rank, from_eye, band.zw, dither, kHandoverRank);
+}
+
+void main() {
+    vec2 place = (rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
+    ivec2 tile = ivec2(floor(place)) + frame.patch_tile.xy;
+    int layer = image.x + tile_variant(tile, frame.patch_tile.z) * image.y;
+#ifdef SLICES
+    vec2 uv = vec2(image.z == kAxisX ? place.y : place.x, rest.y / frame.patch_grid.w);
+#else
+    vec2 uv = place;
+#endif
+    float dither = pixel_threshold(ivec2(gl_FragCoord.xy));
+    // Mip by distance, not by derivatives: blades seen at a grazing angle stay blades. The dither hides the step between mips.
+    float pixel_m = distance(world, frame.eye.xyz) / frame.eye.w;
+    vec2 size = vec2(textureSize(far_images, 0).xy);
+    float texel_m = frame.patch_grid.z / size.x;
+    float mip = floor(max(log2(pixel_m / texel_m) + kMipBias + dither, 0.0));
+    vec4 id = textureLod(far_images, vec3(uv, layer), mip);
+    if (id.r == 0.0) {
+        discard;
+    }
+    // A texel is shown whole or not, with its coverage as the chance: a hash of the texel, so that it stays put.
+    ivec2 texel = ivec2(floor(uv * size * exp2(-mip)));
+    if (id.r < hash_to_unit(hash_ivec2(texel, uint(layer)))) {
+        discard;
+    }
+    vec4 shape = textureLod(far_images, vec3(uv, layer + kPlaneShape), mip);
+    vec2 offset = decode_offset(shape.ba, frame.grass.x);
+    vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope, offset), rest.z + offset.y);
+    float rank = unorm8_to_unit(id.g);
+    float seed = unorm8_to_unit(id.b);
+    if (!own_blade(rank, seed, root, dither)) {
+        discard;
+    }
+    vec3 tangent = decode_tangent(shape.rg);
+#ifdef SLICES
+    float tier = image.z == kAxisX ? kTierSliceX : kTierSliceZ;
+#else
+    float tier = kTierShell;
+#endif
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, rest.y / frame.patch_grid.w, ground_here.z, ground_here.w, tier));
+}

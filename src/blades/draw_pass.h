@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "blades/cull_pass.h"
+#include "gl/program.h"
+
+namespace sward::blades {
+
+/// Draws culled blades by tessellation (J8), bent by W3 and moved to their shell pose in the band. Before: frame constants,
+/// clipmap, the set's blades and a culled batch are bound.
+class DrawPass {
+public:
+    explicit DrawPass(bool aov);
+    ~DrawPass();
+    DrawPass(const DrawPass&) = delete;
+    DrawPass& operator=(const DrawPass&) = delete;
+    void execute(const CullPass& culled);
+    void reload() { program_.reload(); }
+
+private:
+    gl::Program program_;
+    std::uint32_t vertex_array_ = 0; // no attributes: core profile wants one bound all the same
+};
+
+} // namespace sward::blades

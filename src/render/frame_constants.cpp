@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "render/impl.h"
+
+namespace sward::render {
+
+namespace {
+
+constexpr double kAnchorGrid_m = 64;
+constexpr double kDegree = 3.14159265358979323846 / 180;
+// Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at the hand-over, since a
+// widened blade covers more than its shell image would.
+constexpr float kWidthMin_px = 0.1f, kWidthSpan_px = 0.35f;
+constexpr float kSegment_px = 12; // longer is cheaper; a blade's curve is flat over a dozen pixels
+
+glm::dvec3 direction(double yaw_deg, double pitch_deg) {
+    const double yaw = yaw_deg * kDegree, pitch = pitch_deg * kDegree;
+    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
+}
+
+/// Rotation into the eye's frame (x right, y up, -z ahead), then a reversed-depth projection without a far plane.
+glm::dmat4 clip_from_eye(const scene::Pose& pose, const FrameSettings& settings, glm::dvec2 jitter) {
+    const glm::dvec3 ahead = direction(pose.yaw_deg, pose.pitch_deg);
+    const glm::dvec3 right = direction(pose.yaw_deg + 90, 0);
+    const glm::dvec3 up = glm::cross(right, ahead);
+    const glm::dmat4 view = glm::transpose(glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(-ahead, 0), glm::dvec4(0, 0, 0, 1)));
+    const double f = 1 / std::tan(0.5 * pose.fov_deg * kDegree);
+    glm::dmat4 projection(0);
+    projection[0][0] = f * settings.height / settings.width;
+    projection[1][1] = f;
+    projection[2][0] = 2 * jitter.x / settings.width;
+    projection[2][1] = 2 * jitter.y / settings.height;
+    projection[2][3] = -1;
+    projection[3][2] = shared::kNear_m;
+    return projection * view;
+}
+
+/// Clear summer sky by the sun's height: warmer and weaker as it sinks.
+shared::Light light_of(const scene::SunSpec& sun) {
+    const glm::dvec3 to_sun = direction(sun.azimuth_deg, sun.elevation_deg);
+    const double high = std::max(to_sun.y, 0.0);
+    const double air = 1 / (high + 0.15 * std::pow(93.9 - std::min(90.0, 90 - sun.elevation_deg), -1.253)); // Kasten 1965
+    const glm::dvec3 through = glm::exp(-glm::dvec3(0.06, 0.11, 0.22) * air); // clear-air optical depths at R, G, B
+    const double dusk = glm::smoothstep(-6.0, 8.0, sun.elevation_deg);
+    shared::Light light{};
+    light.to_sun = glm::vec4(glm::vec3(to_sun), 0.55f);
+    light.sun = glm::vec4(glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg)), 2.2e-5f);
+    light.zenith = glm::vec4(glm::vec3(glm::dvec3(0.22, 0.42, 0.85) * (0.05 + 0.95 * dusk)), 1.1f);
+    light.horizon = glm::vec4(glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
+                                        (0.04 + 0.96 * dusk)), 1);
+    return light;
+}
+
+/// Bands by tier: the reference and --tiers blades draw geometry to one distance and hand nothing on.
+void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const FrameSettings& settings) {
+    const bool geometry_only = settings.tiers == Tiers::kBlades || settings.tiers == Tiers::kReference;
+    const auto reach = static_cast<float>(settings.tiers == Tiers::kReference ? settings.reference_distance_m : settings.blades_distance_m);
+    const glm::vec2 drawn = geometry_only ? glm::vec2(reach, reach * 1.001f) : bands.handover;
+    out.handover = {drawn.x, drawn.y, kWidthMin_px, kWidthSpan_px};
+    if (settings.tiers == Tiers::kReference) {
+        out.handover.z = 0.0f; // the truth is not widened
+        out.handover.w = 1e-6f;
+    }
+    out.pose_band = {bands.handover.x, bands.handover.y, kSegment_px, 0};
+    for (std::size_t k = 0; k < bands.far.size(); ++k) {
+        out.far_bands[k] = bands.far[k];
+    }
+    out.grass.z = geometry_only ? 0.0f : 1.0f;
+    out.mode = {static_cast<int>(settings.handover), settings.force_far_level, settings.tiers == Tiers::kShells ? 1 : 0, 0};
+}
+
+} // namespace
+
+Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const {
+    Shot shot;
+    const grass::GrassSet& set = world.grass;
+    const glm::dvec3 eye = view.pose.position;
+    shot.anchor = {std::round(eye.x / kAnchorGrid_m) * kAnchorGrid_m, std::floor(eye.y), std::round(eye.z / kAnchorGrid_m) * kAnchorGrid_m};
+    const glm::dvec2 anchor(shot.anchor.x, shot.anchor.z);
+    const double focal_px = 0.5 * settings.height / std::tan(0.5 * view.pose.fov_deg * kDegree);
+    const double lod_focal_px = 0.5 * settings.height / std::tan(0.5 * view.lod_pose.fov_deg * kDegree);
+    shot.bands = lod::bands({}, {lod_focal_px, mean_blade_width_m, static_cast<double>(set.side_m) / set.levels[0].layers.width,
+                                 static_cast<int>(set.levels.size())}, world.scene.lod);
+
+    shared::FrameConstants& out = shot.constants;
+    const glm::dvec3 eye_here = eye - shot.anchor;
+    const glm::dmat4 matrix = clip_from_eye(view.pose, settings, jitter) * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
+    out.clip_from_world = glm::mat4(matrix);
+    out.world_from_clip = glm::mat4(glm::inverse(matrix));
+    out.eye = glm::vec4(glm::vec3(eye_here), static_cast<float>(focal_px));
+    out.lod_eye = glm::vec4(glm::vec3(view.lod_pose.position - shot.anchor), static_cast<float>(view.time_s));
+    out.viewport = {settings.width, settings.height, 1.0 / settings.width, 1.0 / settings.height};
+
+    const double side = set.side_m;
+    const glm::dvec2 tile = glm::floor(anchor / side);
+    out.patch_grid = glm::vec4(glm::vec2(anchor - tile * side), set.side_m, set.canopy_m);
+    out.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
+    out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
+    fill_bands(out, shot.bands, settings);
+    clipmap.describe(out, anchor);
+    out.look = set.appearance;
+    out.light = light_of(world.scene.sun);
+    out.wind = wind.field(anchor, view.time_s);
+    out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter
+    out.ground_colours[1] = {0.17f, 0.155f, 0.135f, 0};  // bare rock and scree
+    return shot;
+}
+
+} // namespace sward::render

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "blades/cull_pass.h"
+#include "blades/draw_pass.h"
+#include "gl/pass.h"
+#include "lod/lod.h"
+#include "render/renderer.h"
+#include "render/screen_passes.h"
+#include "render/targets.h"
+#include "shells/far_appearance.h"
+#include "shells/far_pass.h"
+#include "terrain/terrain_pass.h"
+#include "wind/wind.h"
+
+namespace sward::render {
+
+/// Draw passes of one variant: with or without AOV outputs.
+struct DrawPasses {
+    explicit DrawPasses(bool aov)
+        : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov),
+          slices(shells::FarPass::Family::kSlices, aov), screen(aov) {}
+    terrain::TerrainPass terrain;
+    blades::DrawPass blades;
+    shells::FarPass shells, slices;
+    ScreenPasses screen;
+    void reload(std::vector<std::string>& failures);
+};
+
+/// What one picture of a frame is drawn with: a still has one, the reference one per jitter.
+struct Shot {
+    glm::dvec3 anchor{0};
+    lod::Bands bands;
+    shared::FrameConstants constants{};
+};
+
+struct Renderer::Impl {
+    explicit Impl(World inputs);
+
+    /// The frame (design: a frame, top to bottom). `jitter` in pixels; `picture` counts the jittered pictures of one frame.
+    void draw_frame(const View& view, const FrameSettings& settings);
+    void draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures);
+    void draw_blades(const FrameSettings& settings, const Shot& shot);
+    [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
+    [[nodiscard]] DrawPasses& passes(bool aov);
+
+    World world;
+    terrain::Surface surface;
+    terrain::Clipmap clipmap;
+    wind::Wind wind;
+    shells::FarTextures far_textures;
+    shells::FarAppearance far_appearance;
+    terrain::BlockMesh block_mesh;
+    gl::Buffer blade_records, frame_buffer;
+    blades::CullPass cull;
+    std::unique_ptr<DrawPasses> plain_passes, aov_passes;
+    Targets targets;
+    gl::PassTimers timers;
+    double mean_blade_width_m = 0;
+    FrameSettings last_settings;
+    FrameStats counts; // of the frame being drawn; times are read later
+};
+
+} // namespace sward::render

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gl/texture.h"
+#include "grass/grass_set.h"
+#include "shared/shading.h"
+
+namespace sward::shells {
+
+/// Radiance and coverage of the whole canopy for the ground beyond the shells, by azimuth between eye and sun (0..pi) and by
+/// sine of the view's elevation (0..1): RGBA, kAzimuths x kElevations. The blades of the set, through the one shading function,
+/// weighted by how much of each the eye sees; coverage and mean height from the set's rays (GrassSet::far).
+class FarAppearance {
+public:
+    static constexpr int kAzimuths = 24;
+    static constexpr int kElevations = 24;
+
+    explicit FarAppearance(const grass::GrassSet& set) : set_(set) {}
+    /// Computed when the light changes, in some milliseconds on the CPU.
+    void update(const shared::Light& light);
+    void bind() const;
+
+private:
+    const grass::GrassSet& set_;
+    shared::Light light_{};
+    gl::Texture table_;
+};
+
+/// Coverage (x) and mean height of hits over the canopy's (y) at a sine of elevation, between the set's rows.
+[[nodiscard]] glm::vec2 far_row_at(const grass::GrassSet& set, float sine);
+
+/// One texel of the table: rgb radiance, a coverage.
+[[nodiscard]] glm::vec4 canopy_radiance(const grass::GrassSet& set, const shared::Light& light, float azimuth, float sine);
+
+} // namespace sward::shells

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/texture.h"
+#include "grass/grass_set.h"
+
+namespace sward::shells {
+
+/// The far tier's images on the GPU, one array of layers and one of slices for each far level.
+class FarTextures {
+public:
+    struct Level {
+        gl::Texture layers, slices;
+        int layer_count = 0;
+        int slice_count = 0;
+    };
+    /// Throws Error(kOverLimit) when an array has more layers than the GPU takes.
+    explicit FarTextures(const grass::GrassSet& set);
+    [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
+
+private:
+    std::vector<Level> levels_;
+};
+
+} // namespace sward::shells

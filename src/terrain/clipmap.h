@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "scene/heightfield.h"
+#include "shared/frame.h"
+#include "terrain/surface.h"
+
+namespace sward::terrain {
+
+/// The ground around the eye as nested grids (geometry clipmap, Losasso & Hoppe 2004): level k has kClipCells posts a side,
+/// 0.5 m * 2^k apart, in textures that wrap around, so that moving the eye moves no post. shaders/lib/ground.glsl reads it.
+class Clipmap {
+public:
+    static constexpr double kFinest_m = 0.5;
+    static constexpr int kBlockCells = 8;   ///< a window moves by two blocks, so that holes fall on blocks
+    static constexpr int kSnapCells = 16;
+
+    /// Level windows: world index of the first post.
+    struct Window {
+        glm::ivec2 first{0, 0};
+        bool operator==(const Window&) const = default;
+    };
+
+    /// `mask` may be empty (width 0): the slope rule. Throws Error(kOverLimit) when the posts exceed a texture.
+    Clipmap(const Surface& surface, const scene::DensityMask& mask);
+
+    /// Brings every level's window around the eye (world metres); recomputes the levels that moved.
+    void update(glm::dvec2 eye);
+    void bind() const;
+    /// Fills clip and clip_layout of the frame constants for an anchor (world metres).
+    void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
+
+    [[nodiscard]] int levels() const { return static_cast<int>(windows_.size()); }
+    [[nodiscard]] static double spacing(int level) { return kFinest_m * static_cast<double>(1 << level); }
+    [[nodiscard]] const Window& window(int level) const { return windows_[static_cast<std::size_t>(level)]; }
+    [[nodiscard]] const gl::Texture& heights() const { return heights_; }
+    void reload();
+
+private:
+    void fill(int level);
+    const Surface& surface_;
+    std::vector<Window> windows_;
+    bool filled_ = false;
+    gl::Texture elevation_, mask_, heights_, surfaces_;
+    gl::Buffer params_;
+    gl::Program height_program_, surface_program_;
+    bool has_mask_;
+};
+
+} // namespace sward::terrain

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "shared/frame.h"
+#include "terrain/clipmap.h"
+#include "terrain/frustum.h"
+
+namespace sward::terrain {
+
+/// A block of the clipmap's grid that may be seen, nearest first. The far tier draws its shells over the same blocks, so that
+/// shells and ground are one mesh.
+struct VisibleBlock {
+    glm::vec2 corner;  ///< anchor-relative metres
+    float cell = 0;    ///< metres
+    int level = 0;
+    float low = 0, high = 0; ///< bounds of the ground, anchor-relative metres
+    float nearest = 0; ///< horizontal distance from the eye to the block (m)
+};
+
+/// Blocks of every level that may be seen, without the holes that finer levels fill, sorted by distance.
+/// `anchor`: world metres (x, height, z); `eye`: anchor-relative.
+[[nodiscard]] std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& surface, const Frustum& frustum,
+                                                       glm::dvec3 anchor, glm::vec3 eye);
+
+/// Index buffer of a block's 8 x 8 cells as triangles: terrain and shells draw the same mesh.
+class BlockMesh {
+public:
+    BlockMesh();
+    ~BlockMesh();
+    BlockMesh(const BlockMesh&) = delete;
+    BlockMesh& operator=(const BlockMesh&) = delete;
+    void draw(int instances) const;
+
+private:
+    gl::Buffer indices_;
+    std::uint32_t vertex_array_ = 0;
+};
+
+/// Draws the ground. Before: frame constants, clipmap and far appearance are bound. After: depth and colour hold it.
+class TerrainPass {
+public:
+    explicit TerrainPass(bool aov);
+    void execute(const std::vector<VisibleBlock>& blocks, const BlockMesh& mesh);
+    void reload() { program_.reload(); }
+
+private:
+    gl::Program program_;
+    gl::Buffer blocks_;
+};
+
+} // namespace sward::terrain
