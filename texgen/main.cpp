@@ -63,12 +63,16 @@ void run(const Options& o, const std::vector<CLI::Option*>& set_numbers) {
         if (set_numbers[i]->count() > 0)
             texgen::override_preset(preset, o.overrides[i].first, o.overrides[i].second, o.values[i]);
     texgen::check_preset(preset, path);
-    texgen::require_set_place(o.output);
+    // "sets/meadow/" names the same directory as "sets/meadow".
+    fs::path output = fs::path(o.output).lexically_normal();
+    if (!output.has_filename())
+        output = output.parent_path();
+    texgen::require_set_place(output);
     texgen::BakeOptions options;
     options.threads = o.threads;
     options.preview = !o.no_preview;
     options.volume = !o.no_volume;
-    texgen::write_set(texgen::bake_set(preset, options), preset, o.output, options);
+    texgen::write_set(texgen::bake_set(preset, options), preset, output, options);
 }
 
 int exit_code(base::ExitCode code) { return static_cast<int>(code); }

@@ -103,17 +103,18 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
 }
 
 void require_set_place(const fs::path& directory) {
-    base::require_writable(directory);
     std::error_code error;
     const fs::file_status status = fs::status(directory, error);
     if (!fs::exists(status))
-        return;
+        return base::require_writable(directory);
     if (!fs::is_directory(status))
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file", "a directory for the set, or none yet");
     // The directory that stands there is removed: never one that holds something else.
     if (!fs::is_empty(directory, error) && !fs::is_regular_file(directory / grass::kSetJson, error))
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a directory with other files",
                                 "an earlier grass set, an empty directory, or none yet");
+    fs::path beside = directory; // the new set is written beside the old one
+    base::require_writable(beside += ".new");
 }
 
 void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path& directory, const BakeOptions& options) {
