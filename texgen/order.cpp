@@ -14,34 +14,35 @@ namespace {
 using shared::vec2;
 
 constexpr double kReachSpacings = 1.9;   // kernel radius in mean spacings of the stage's last prefix
-constexpr double kMaxNeighbours = 2048;  // bound on the kernel's points, so that early stages stay cheap
+constexpr double kMaxNeighbours = 512;   // bound on the kernel's points, so that early stages stay cheap
 
 /// Points by cells of a toroidal grid.
 class Neighbours {
 public:
     Neighbours(std::span<const vec2> points, double side, double radius)
         : points_(points), side_(side), radius_(radius),
-          cells_(std::clamp(static_cast<int>(side / radius), 1, 256)), buckets_(cells_ * cells_) {
+          cells_(std::clamp(static_cast<int>(kReach * side / radius), 1, 256)), buckets_(cells_ * cells_) {
         for (std::uint32_t i = 0; i < points.size(); ++i)
             buckets_[cell(points[i].x) + cells_ * cell(points[i].y)].push_back(i);
     }
 
     /// visit(j, kernel) for every point within the radius of point i.
     template <typename Visit> void around(std::uint32_t i, const Visit& visit) const {
-        const int reach = cells_ < 3 ? 0 : 1;
         const int cx = cell(points_[i].x);
         const int cz = cell(points_[i].y);
-        if (cells_ < 3) { // the ring of cells would visit some twice
+        if (cells_ < 2 * kReach + 1) { // the rings of cells would visit some twice
             for (const auto& bucket : buckets_)
                 visit_bucket(bucket, i, visit);
             return;
         }
-        for (int dz = -reach; dz <= reach; ++dz)
-            for (int dx = -reach; dx <= reach; ++dx)
+        for (int dz = -kReach; dz <= kReach; ++dz)
+            for (int dx = -kReach; dx <= kReach; ++dx)
                 visit_bucket(buckets_[(cx + dx + cells_) % cells_ + cells_ * ((cz + dz + cells_) % cells_)], i, visit);
     }
 
 private:
+    static constexpr int kReach = 2; ///< cells a radius
+
     int cell(float v) const { return std::clamp(static_cast<int>(v / side_ * cells_), 0, cells_ - 1); }
 
     template <typename Visit>

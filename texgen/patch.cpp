@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/hash.h"
+#include "texgen/parallel.h"
 
 namespace sward::texgen {
 namespace {
@@ -92,6 +93,25 @@ std::vector<std::size_t> seed_positions(std::size_t count, std::uint64_t seed) {
     return position;
 }
 
+/// The blades of one variant by rising rank, and the point at each position.
+std::vector<BladeRecord> grow_variant(const Preset& preset, const Roots& roots, std::size_t variant,
+                                      std::span<const std::int32_t> fixed, std::vector<std::uint32_t>& order) {
+    std::vector<BladeRecord> grown;
+    std::vector<vec2> points;
+    for (const auto* part : {&roots.border, &roots.interior[variant]})
+        for (const Sprout& sprout : *part) {
+            grown.push_back(grow(preset, sprout));
+            points.emplace_back(grown.back().root.x, grown.back().root.y);
+        }
+    const std::uint64_t tie = base::hash64(static_cast<std::uint64_t>(preset.seed), kRankTie, 0);
+    order = progressive_order(points, preset.side_m, fixed, tie);
+    std::vector<BladeRecord> sorted;
+    sorted.reserve(grown.size());
+    for (const std::uint32_t point : order)
+        sorted.push_back(grown[point]);
+    return sorted;
+}
+
 } // namespace
 
 RestCurve rest_curve(double length, double lean, double bend, double azimuth) {
@@ -123,36 +143,32 @@ double curve_length(vec3 v1, vec3 v2) {
     return 2 * (integral(1) - integral(0));
 }
 
-Patch generate_patch(const Preset& preset) {
+Patch generate_patch(const Preset& preset, int threads) {
     const Roots roots = scatter_roots(preset);
-    const auto seed = static_cast<std::uint64_t>(preset.seed);
     const std::size_t border = roots.border.size();
-    const std::size_t count = border + roots.interior.front().size();
-    const std::vector<std::size_t> seeds = seed_positions(count, seed);
+    const std::vector<std::size_t> seeds =
+        seed_positions(border + roots.interior.front().size(), static_cast<std::uint64_t>(preset.seed));
+    std::vector<std::vector<BladeRecord>> variants(roots.interior.size());
+    // The first variant decides the border's ranks; the others fill in around them.
+    std::vector<std::int32_t> fixed;
+    std::vector<std::uint32_t> order;
+    variants[0] = grow_variant(preset, roots, 0, fixed, order);
+    for (const std::uint32_t point : order)
+        fixed.push_back(point < border ? static_cast<std::int32_t>(point) : -1);
+    parallel_for(variants.size() - 1, resolve_threads(threads), [&](std::size_t v, int) {
+        std::vector<std::uint32_t> own;
+        variants[v + 1] = grow_variant(preset, roots, v + 1, fixed, own);
+    });
     Patch patch;
     patch.side_m = preset.side_m;
     patch.variant_begin.push_back(0);
-    std::vector<std::int32_t> fixed;
-    for (const std::vector<Sprout>& interior : roots.interior) {
-        std::vector<BladeRecord> grown;
-        std::vector<vec2> points;
-        for (const auto* part : {&roots.border, &interior})
-            for (const Sprout& sprout : *part) {
-                grown.push_back(grow(preset, sprout));
-                points.emplace_back(grown.back().root.x, grown.back().root.y);
-            }
-        const std::vector<std::uint32_t> order =
-            progressive_order(points, preset.side_m, fixed, base::hash64(seed, kRankTie, 0));
-        for (std::size_t p = 0; p < count; ++p) {
-            BladeRecord& blade = grown[order[p]];
-            blade.root.z = quantised(p, count);
-            blade.root.w = quantised(seeds[p], count);
-            patch.blades.push_back(blade);
+    for (std::vector<BladeRecord>& blades : variants) {
+        for (std::size_t p = 0; p < blades.size(); ++p) {
+            blades[p].root.z = quantised(p, blades.size());
+            blades[p].root.w = quantised(seeds[p], blades.size());
         }
+        patch.blades.insert(patch.blades.end(), blades.begin(), blades.end());
         patch.variant_begin.push_back(static_cast<std::uint32_t>(patch.blades.size()));
-        if (fixed.empty()) // the first variant decides the border's ranks; the others fill in around them
-            for (const std::uint32_t point : order)
-                fixed.push_back(point < border ? static_cast<std::int32_t>(point) : -1);
     }
     return patch;
 }

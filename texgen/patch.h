@@ -24,8 +24,8 @@ struct Patch {
 
 /// Blades of a species on its patch (J2): single blades uniform, tufts Poisson-disk. Every variant has the same number
 /// of blades, and every blade with its root within border_width() of an edge is the same, at the same index, in all.
-/// Depends on the preset alone.
-[[nodiscard]] Patch generate_patch(const Preset& preset);
+/// Depends on the preset alone, not on the number of threads.
+[[nodiscard]] Patch generate_patch(const Preset& preset, int threads);
 
 /// Rest pose of a blade: a quadratic Bezier near the circular arc that starts `lean` from the vertical and turns by
 /// `bend` (radians) towards `azimuth`, its curve exactly `length` long.

@@ -56,7 +56,7 @@ void BladeField::bin(std::uint32_t blade, int segment) {
     for (int z = index(low.z - 1e-9); z <= index(high.z + 1e-9); ++z)
         for (int x = index(low.x - 1e-9); x <= index(high.x + 1e-9); ++x)
             grid_[static_cast<std::size_t>(floor_mod(z, cells_) * cells_ + floor_mod(x, cells_))].push_back(
-                {blade, static_cast<std::uint8_t>(segment), static_cast<std::int8_t>(-tile(x)), static_cast<std::int8_t>(-tile(z))});
+                {blade, static_cast<float>(low.y - 1e-6), static_cast<float>(high.y + 1e-6), static_cast<std::uint8_t>(segment), static_cast<std::int8_t>(-tile(x)), static_cast<std::int8_t>(-tile(z))});
 }
 
 const std::vector<BladeField::Item>& BladeField::cell(int x, int z) const {
@@ -107,10 +107,7 @@ std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction) 
         const double exit = std::min(x.next, z.next);
         const double y0 = start.y + entry * direction.y, y1 = start.y + std::min(exit, 1e6) * direction.y;
         for (const Item& item : cell(x.cell, z.cell)) {
-            const Outline& o = outlines_[item.blade];
-            const double low = std::min(o.centre[item.segment].y, o.centre[item.segment + 1].y);
-            const double high = std::max(o.centre[item.segment].y, o.centre[item.segment + 1].y);
-            if (low > std::max(y0, y1) + 1e-9 || high < std::min(y0, y1) - 1e-9)
+            if (item.low > std::max(y0, y1) || item.high < std::min(y0, y1))
                 continue;
             const glm::dvec3 shift((tile_x + item.shift_x) * side_, 0.0, (tile_z + item.shift_z) * side_);
             meet(item, start - shift, direction, best);

@@ -33,6 +33,7 @@ public:
 private:
     struct Item {
         std::uint32_t blade;
+        float low, high; ///< of the segment's y
         std::uint8_t segment;
         std::int8_t shift_x, shift_z; ///< image of the torus that reaches into the cell
     };

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include <openvdb/io/Archive.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include "base/error.h"
@@ -171,6 +172,24 @@ std::vector<std::byte> encode_volume(const grass::GrassSet& set) {
     const std::string text = StreamArchive().bytes(grids.all());
     const auto* raw = reinterpret_cast<const std::byte*>(text.data());
     return {raw, raw + text.size()};
+}
+
+VolumeInfo inspect_volume(const std::vector<std::byte>& bytes) {
+    openvdb::initialize();
+    std::istringstream stream(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::ios::binary);
+    VolumeInfo info;
+    const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, false).getGrids();
+    for (const openvdb::GridBase::Ptr& grid : *grids) {
+        info.grids.push_back(grid->getName());
+        const auto density = openvdb::gridPtrCast<openvdb::FloatGrid>(grid);
+        if (!density || grid->getName() != "density")
+            continue;
+        info.active_voxels = density->activeVoxelCount();
+        info.voxel_m = density->voxelSize().x();
+        for (auto value = density->cbeginValueOn(); value; ++value)
+            info.density_sum += *value;
+    }
+    return info;
 }
 
 } // namespace sward::texgen

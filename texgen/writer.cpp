@@ -71,7 +71,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     Patch patch;
     {
         const StepTimer timer("patch");
-        patch = generate_patch(preset);
+        patch = generate_patch(preset, options.threads);
     }
     grass::GrassSet set;
     set.name = preset.name;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -78,8 +79,11 @@ std::vector<std::byte> key_values() {
 }
 
 std::vector<std::byte> pack(const std::vector<std::uint8_t>& raw, int compression) {
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression);
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1); // a flipped byte must not become another picture
     std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
-    const std::size_t size = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), compression);
+    const std::size_t size = ZSTD_compress2(context.get(), packed.data(), packed.size(), raw.data(), raw.size());
     if (ZSTD_isError(size))
         throw base::Error(ExitCode::kFailure, fmt::format("zstd: {}", ZSTD_getErrorName(size)));
     packed.resize(size);
@@ -124,6 +128,9 @@ private:
             refuse(ExitCode::kBadInput, "data format descriptor", "another", "linear RGBA8 UNORM");
         if (std::uint64_t{header_.kvd_offset} + header_.kvd_bytes > bytes_.size())
             refuse(ExitCode::kBadInput, "key/value data", "an end beyond the file", "an end inside");
+        constexpr std::size_t kGlobalData = kHeaderBytes - 16;
+        if (get<std::uint64_t>(bytes_, kGlobalData) != 0 || get<std::uint64_t>(bytes_, kGlobalData + 8) != 0)
+            refuse(ExitCode::kBadInput, "supercompression global data", "some", "none");
     }
 
     void check_size() const {

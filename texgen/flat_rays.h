@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include <glm/glm.hpp>
+
+#include "grass/grass_set.h"
+
+namespace sward::texgen {
+
+/// Where a ray meets one of the flat textures.
+struct FlatHit {
+    double distance = 0;
+    double height = 0; ///< metres
+    double along = 0;
+};
+
+/// What part of the far tier counts.
+struct FlatUse {
+    double shell_share = 1; ///< shells show a blade while 1 - seed < share
+    double slice_share = 1; ///< scales the slices' |dx| and |dz|
+};
+
+/// The far tier as rays see it: shells and both slice families of one level at rest, as models of the renderer and for
+/// calibration. A slice across x shows a blade while seed < |dx|, one across z while seed < |dz| (design, section 1).
+class FlatField {
+public:
+    FlatField(const grass::GrassSet& set, int variant, int level, FlatUse use)
+        : set_(set), far_(set.levels[static_cast<std::size_t>(level)]), variant_(variant), use_(use) {}
+
+    /// `ray` numbers the random stream that turns a texel's coverage into hit or miss. `direction` points down.
+    [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t ray) const;
+
+private:
+    struct Ray {
+        glm::dvec3 origin, direction;
+        double begin, end; ///< where it is inside the canopy
+        std::uint64_t number;
+    };
+    void shells(const Ray& ray, std::optional<FlatHit>& best) const;
+    void slices(const Ray& ray, int axis, std::optional<FlatHit>& best) const;
+
+    const grass::GrassSet& set_;
+    const grass::FarLevel& far_;
+    int variant_;
+    FlatUse use_;
+};
+
+/// Share of rays that meet a texture at an elevation, places and azimuths spread evenly.
+[[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level, double elevation_deg, FlatUse use, int rays);
+
+} // namespace sward::texgen
