@@ -72,7 +72,7 @@ scene::Heightfield from_picture(const scene::TerrainSpec& spec) {
     if (channel.channels > 1)
         base::log_warning(fmt::format("{}: {} channels; the first is the height",
                                       spec.elevation.string(), channel.channels));
-    apply_height_range(spec, 1, channel.values);
+    apply_height_range(spec, channel.full_scale, channel.values);
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (!(std::abs(channel.values[i]) <= 1e5f))
             throw bad(

@@ -5,15 +5,12 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <utility>
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
 #include <fmt/format.h>
 #include <gdal.h>
-#include <gdal_frmts.h>
 #include <ogr_srs_api.h>
 
+#include "assets/gdal_scope.h"
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/log.h"
@@ -36,9 +33,6 @@ base::Error bad(const fs::path& path, std::string_view what, std::string_view fo
     return base::input_error(ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
-struct CloseDataset {
-    void operator()(void* dataset) const { GDALClose(dataset); }
-};
 struct FreeReference {
     void operator()(void* srs) const {
         OSRDestroySpatialReference(static_cast<OGRSpatialReferenceH>(srs));
@@ -49,52 +43,12 @@ struct FreeTransformation {
         OCTDestroyCoordinateTransformation(static_cast<OGRCoordinateTransformationH>(ct));
     }
 };
-using Dataset = std::unique_ptr<void, CloseDataset>;
 using Reference = std::unique_ptr<void, FreeReference>;
 using Transformation = std::unique_ptr<void, FreeTransformation>;
 
 OGRSpatialReferenceH handle(const Reference& reference) {
     return static_cast<OGRSpatialReferenceH>(reference.get());
 }
-
-/// GDAL as we want it while one stands: silent, without side files, without a network. Settings of
-/// this thread only.
-class GdalScope {
-public:
-    GdalScope() {
-        static const bool registered = [] {
-            GDALRegister_GTiff();
-            GDALRegister_AAIGrid();
-            GDALRegister_DTED();
-            GDALRegister_USGSDEM();
-            OSRSetPROJEnableNetwork(0);
-            return true;
-        }();
-        static_cast<void>(registered);
-        CPLPushErrorHandlerEx(keep, this);
-        CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
-        CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
-    }
-    ~GdalScope() {
-        CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", nullptr);
-        CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
-        CPLPopErrorHandler();
-    }
-    GdalScope(const GdalScope&) = delete;
-    GdalScope& operator=(const GdalScope&) = delete;
-    /// The first error since the last call, or `otherwise`.
-    std::string error(const char* otherwise) {
-        return std::exchange(error_, {}).value_or(otherwise);
-    }
-
-private:
-    static void keep(CPLErr level, CPLErrorNum, const char* message) {
-        auto* self = static_cast<GdalScope*>(CPLGetErrorHandlerUserData());
-        if (level >= CE_Failure && !self->error_)
-            self->error_ = message;
-    }
-    std::optional<std::string> error_;
-};
 
 void transform(const Transformation& transformation, std::vector<glm::dvec2>& points) {
     std::vector<double> x, y;
@@ -245,19 +199,8 @@ void read_band(const Dataset& dataset, const fs::path& path, std::uint64_t file_
     const GDALDataType type = GDALGetRasterDataType(band);
     if (GDALDataTypeIsComplex(type))
         throw bad(path, "type of the heights", GDALGetDataTypeName(type), "real numbers");
-    // A block may claim to be far larger than the raster, and is read whole.
-    int block_width = 0, block_height = 0;
-    GDALGetBlockSize(band, &block_width, &block_height);
-    const std::int64_t pixels = std::int64_t{raster.width} * raster.height;
-    if (std::int64_t{block_width} * block_height > std::max<std::int64_t>(pixels, 1 << 22))
-        throw base::input_error(ExitCode::kOverLimit, path, 0, "block",
-                                fmt::format("{} x {}", block_width, block_height),
-                                "no more than the raster");
     raster.full_scale = type == GDT_Byte ? 255 : type == GDT_UInt16 ? 65535 : 0;
-    raster.values.resize(static_cast<std::size_t>(pixels));
-    if (GDALRasterIO(band, GF_Read, 0, 0, raster.width, raster.height, raster.values.data(),
-                     raster.width, raster.height, GDT_Float32, 0, 0) != CE_None)
-        throw bad(path, "cannot decode", gdal.error("broken data"), "a whole raster");
+    gdal.read(band, path, raster.values);
     to_metres(band, path, raster);
 }
 
@@ -265,10 +208,7 @@ void read_band(const Dataset& dataset, const fs::path& path, std::uint64_t file_
 
 Raster read_gdal_raster(const fs::path& path) {
     GdalScope gdal;
-    const std::string absolute = fs::absolute(path).lexically_normal().string();
-    const Dataset dataset(GDALOpenEx(absolute.c_str(),
-                                     GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_INTERNAL,
-                                     kDrivers.data(), nullptr, nullptr));
+    const Dataset dataset = gdal.open(path, kDrivers.data());
     if (!dataset)
         throw bad(path, "cannot read elevation", gdal.error("an unknown format"),
                   "GeoTIFF, .hgt, Arc/Info ASCII grid, DTED, USGS DEM, 16-bit PNG or EXR");

@@ -26,38 +26,9 @@ bool starts_with(std::span<const std::byte> head, std::initializer_list<int> mag
                       [](int m, std::byte b) { return m == std::to_integer<int>(b); });
 }
 
-const char* reader_of(Format format) {
-    switch (format) {
-    case Format::kPng:
-        return "png";
-    case Format::kTiff:
-        return "tiff";
-    case Format::kExr:
-        return "openexr";
-    case Format::kJpeg:
-        return "jpeg";
-    case Format::kUnknown:
-        break;
-    }
-    return nullptr;
-}
-
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
     return base::input_error(ExitCode::kBadInput, path, 0, what, found, expected);
-}
-
-double full_scale_of(OIIO::TypeDesc type) {
-    switch (type.basetype) {
-    case OIIO::TypeDesc::UINT8:
-        return 255;
-    case OIIO::TypeDesc::UINT16:
-        return 65535;
-    case OIIO::TypeDesc::UINT32:
-        return 4294967295.0;
-    default:
-        return 0;
-    }
 }
 
 void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
@@ -73,9 +44,6 @@ void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
         throw base::input_error(ExitCode::kOverLimit, path, 0, "tile",
                                 fmt::format("{} x {}", spec.tile_width, spec.tile_height),
                                 "no more than the picture");
-    const OIIO::TypeDesc type = spec.channelformat(0);
-    if (full_scale_of(type) == 0 && !type.is_floating_point())
-        throw bad(path, "type of the pixels", type.c_str(), "unsigned integers or floating point");
 }
 
 } // namespace
@@ -118,27 +86,22 @@ Format format_of(std::span<const std::byte> head) {
     return Format::kUnknown;
 }
 
-Channel read_first_channel(const std::filesystem::path& path, int least_side) {
-    const char* reader = reader_of(format_of(base::read_head(path, 16)));
-    if (!reader)
-        throw bad(path, "format", "neither of them in its first bytes", "PNG, TIFF, EXR or JPEG");
-    // From memory: the libraries see no path, so no other file and no FIFO.
+Channel read_exr_channel(const std::filesystem::path& path, int least_side) {
+    // From memory: the library sees no path, so no other file and no FIFO.
     const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const auto input = OIIO::ImageInput::create(reader);
+    const auto input = OIIO::ImageInput::create("openexr");
     if (!input)
-        throw base::Error(ExitCode::kFailure, fmt::format("OpenImageIO has no reader {}: {}",
-                                                          reader, OIIO::geterror()));
+        throw base::Error(ExitCode::kFailure,
+                          "OpenImageIO has no reader for EXR: " + OIIO::geterror());
     OIIO::ImageSpec config, spec;
-    config.attribute("oiio:UnassociatedAlpha",
-                     1); // else the first channel comes multiplied by the last
     void* proxy = &memory;
     config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     const auto decode_error = [&] {
         const std::string error = input->geterror() + OIIO::geterror();
         return bad(path, "cannot decode", error.empty() ? "broken data" : error, "a whole picture");
     };
-    if (!input->open(std::string("memory.") + reader, spec, config))
+    if (!input->open("memory.exr", spec, config))
         throw decode_error();
     check_spec(path, spec, bytes.size(), least_side);
 
@@ -146,7 +109,6 @@ Channel read_first_channel(const std::filesystem::path& path, int least_side) {
     channel.width = spec.width;
     channel.height = spec.height;
     channel.channels = spec.nchannels;
-    channel.full_scale = full_scale_of(spec.channelformat(0));
     channel.values.resize(std::size_t(spec.width) * spec.height);
     if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, channel.values.data()))
         throw decode_error();
@@ -154,11 +116,25 @@ Channel read_first_channel(const std::filesystem::path& path, int least_side) {
         base::log_warning(path.string() + ": holds several pictures; the first is used");
     [[maybe_unused]] const std::string no_more =
         input->geterror(); // what is never asked for is printed
+    return channel;
+}
+
+Channel read_first_channel(const std::filesystem::path& path, int least_side, Palette palette) {
+    const Format format = format_of(base::read_head(path, 16)); // refuses what is no regular file
+    if (format == Format::kUnknown)
+        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR or JPEG");
+    if (std::filesystem::file_size(path) > kMostFileBytes)
+        throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
+                                fmt::format("{} bytes", std::filesystem::file_size(path)),
+                                fmt::format("at most {}", kMostFileBytes));
+    Channel channel = format == Format::kExr ? read_exr_channel(path, least_side)
+                                             : read_gdal_channel(path, least_side, palette);
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (!std::isfinite(channel.values[i]))
-            throw bad(path,
-                      fmt::format("pixel at column {}, row {}", i % spec.width, i / spec.width),
-                      fmt::format("{}", channel.values[i]), "a finite number");
+            throw bad(
+                path,
+                fmt::format("pixel at column {}, row {}", i % channel.width, i / channel.width),
+                fmt::format("{}", channel.values[i]), "a finite number");
     return channel;
 }
 

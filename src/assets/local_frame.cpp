@@ -149,7 +149,8 @@ scene::Heightfield to_local_grid(const Raster& raster, const fs::path& path) {
                   fmt::format("at most {:.0f} km a side for a flat frame", kWidest_m / 1000),
                   base::ExitCode::kOverLimit);
     glm::dvec2 posts = glm::floor(2.0 * half / field.spacing_m + 1e-6) + 1.0;
-    // Odd stays odd: then the new posts stand on the old ones near the middle, and peaks keep their height.
+    // Odd stays odd: then the new posts stand on the old ones near the middle, and peaks keep their
+    // height.
     posts -= glm::mod(glm::dvec2(raster.width, raster.height) - posts, 2.0);
     check_size(path, static_cast<std::int64_t>(posts.x), static_cast<std::int64_t>(posts.y), 1,
                sizeof(float), std::numeric_limits<std::uint64_t>::max(), 2);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,25 +27,24 @@ base::Error bad_pixel(const std::filesystem::path& path, const Channel& channel,
 
 scene::DensityMask load_mask(const std::filesystem::path& path,
                              const std::map<int, double>& classes) {
-    const Channel channel = read_first_channel(path, 1);
-    scene::DensityMask mask{channel.width, channel.height, channel.values};
-    const double scale = channel.full_scale > 0 ? channel.full_scale
-                                                : 1; // classes in a float file are whole numbers
-    for (std::size_t i = 0; i < mask.density.size(); ++i) {
-        float& value = mask.density[i];
-        if (!classes.empty()) {
-            const double number = std::round(double(value) * scale);
-            if (std::abs(number - double(value) * scale) > 1e-2 || number < 0 || number > 65535)
+    const bool by_class = !classes.empty();
+    Channel channel = read_first_channel(path, 1, by_class ? Palette::kIndices : Palette::kColours);
+    const float scale =
+        by_class || channel.full_scale == 0 ? 1.0f : static_cast<float>(1 / channel.full_scale);
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+        const float value = channel.values[i] * scale;
+        if (by_class) {
+            if (value != std::round(value) || value < 0 || value > 65535)
                 throw bad_pixel(path, channel, i, "a landcover class from 0 to 65535");
-            const auto it = classes.find(static_cast<int>(number));
-            value = it == classes.end() ? 0.0f : static_cast<float>(it->second);
+            const auto it = classes.find(static_cast<int>(value));
+            channel.values[i] = it == classes.end() ? 0.0f : static_cast<float>(it->second);
         } else if (value < -kSlack || value > 1 + kSlack) {
             throw bad_pixel(path, channel, i, "a density from 0 to 1");
         } else {
-            value = std::clamp(value, 0.0f, 1.0f);
+            channel.values[i] = std::clamp(value, 0.0f, 1.0f);
         }
     }
-    return mask;
+    return {channel.width, channel.height, std::move(channel.values)};
 }
 
 } // namespace sward::assets

@@ -75,6 +75,8 @@ void write_exr(const std::filesystem::path& path, const scene::Image& image) {
     }
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("DateTime",
+                   ""); // else the writer puts the time of day in, and no two files are the same
     for (const auto& [key, value] : image.metadata)
         spec.attribute(key, value);
 

@@ -119,12 +119,16 @@ Error input_error(ExitCode code, const std::filesystem::path& file, int line, st
 std::string nearest_name(std::string_view name, std::span<const std::string> known) {
     constexpr std::size_t kLongest =
         64; // a longer name is no slip of the finger; the distance is quadratic
+    constexpr std::size_t kPart = 3;
     std::string best;
     std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
     if (name.size() > kLongest)
         return best;
     for (const std::string& candidate : known) {
-        const std::size_t distance = edit_distance(name, candidate);
+        std::size_t distance = edit_distance(name, candidate);
+        if (name.size() >= kPart && candidate.starts_with(name))
+            distance =
+                std::min(distance, std::size_t{1}); // "fov" for "fov_deg": the unit was left out
         if (distance < least)
             least = distance, best = candidate;
     }

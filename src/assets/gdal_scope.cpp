@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "assets/gdal_scope.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <cpl_error.h>
+#include <fmt/format.h>
+#include <gdal_frmts.h>
+#include <ogr_srs_api.h>
+
+#include "base/error.h"
+
+namespace sward::assets {
+namespace {
+
+void keep(CPLErr level, CPLErrorNum, const char* message) {
+    auto* error = static_cast<std::optional<std::string>*>(CPLGetErrorHandlerUserData());
+    if (level >= CE_Failure && !*error)
+        *error = message;
+}
+
+/// Not GDALAllRegister: that takes a second, loads plugins, and brings drivers that follow
+/// references.
+bool register_drivers() {
+    GDALRegister_GTiff();
+    GDALRegister_AAIGrid();
+    GDALRegister_DTED();
+    GDALRegister_USGSDEM();
+    GDALRegister_PNG();
+    GDALRegister_JPEG();
+    OSRSetPROJEnableNetwork(0);
+    return true;
+}
+
+} // namespace
+
+GdalScope::GdalScope() {
+    [[maybe_unused]] static const bool registered = register_drivers();
+    CPLPushErrorHandlerEx(keep, &error_);
+    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", "EMPTY_DIR");
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", "NO");
+}
+
+GdalScope::~GdalScope() {
+    CPLSetThreadLocalConfigOption("GDAL_DISABLE_READDIR_ON_OPEN", nullptr);
+    CPLSetThreadLocalConfigOption("GDAL_PAM_ENABLED", nullptr);
+    CPLPopErrorHandler();
+}
+
+std::string GdalScope::error(const char* otherwise) {
+    return std::exchange(error_, {}).value_or(otherwise);
+}
+
+Dataset GdalScope::open(const std::filesystem::path& path, const char* const* drivers) {
+    // Absolute: a relative name such as "GTIFF_DIR:1:x" could be an instruction to a driver.
+    const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+    if (absolute.starts_with("/vsi"))
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "path",
+                                "a virtual path of GDAL", "a file on this machine");
+    return Dataset(GDALOpenEx(absolute.c_str(),
+                              GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers,
+                              nullptr, nullptr));
+}
+
+void GdalScope::read(GDALRasterBandH band, const std::filesystem::path& path,
+                     std::vector<float>& values) {
+    const int width = GDALGetRasterBandXSize(band), height = GDALGetRasterBandYSize(band);
+    const std::int64_t pixels = std::int64_t{width} * height;
+    // A block may claim to be far larger than the raster, and is read whole.
+    int block_width = 0, block_height = 0;
+    GDALGetBlockSize(band, &block_width, &block_height);
+    if (std::int64_t{block_width} * block_height > std::max<std::int64_t>(pixels, 1 << 22))
+        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "block",
+                                fmt::format("{} x {}", block_width, block_height),
+                                "no more than the raster");
+    values.resize(static_cast<std::size_t>(pixels));
+    if (GDALRasterIO(band, GF_Read, 0, 0, width, height, values.data(), width, height, GDT_Float32,
+                     0, 0) != CE_None)
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode",
+                                error("broken data"), "a whole picture");
+}
+
+} // namespace sward::assets
