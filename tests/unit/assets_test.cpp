@@ -567,6 +567,42 @@ TEST_F(Mask, ReadsEveryKindOfPng) {
         << "1 bit";
 }
 
+// 8 x 8 grey pixels of 51.
+const char* const kJpeg =
+    "ffd8ffe000104a46494600010100000100010000ffdb004300100b0c0e0c0a100e0d0e1211101318281a1816"
+    "16183123251d283a333d3c3933383740485c4e404457453738506d51575f626768673e4d71797064785c6567"
+    "63ffc0000b080008000801011100ffc4001f0000010501010101010100000000000000000102030405060708"
+    "090a0bffc400b5100002010303020403050504040000017d0102030004110512213141061351610722711432"
+    "8191a1082342b1c11552d1f02433627282090a161718191a25262728292a3435363738393a43444546474849"
+    "4a535455565758595a636465666768696a737475767778797a838485868788898a92939495969798999aa2a3"
+    "a4a5a6a7a8a9aab2b3b4b5b6b7b8b9bac2c3c4c5c6c7c8c9cad2d3d4d5d6d7d8d9dae1e2e3e4e5e6e7e8e9ea"
+    "f1f2f3f4f5f6f7f8f9faffda0008010100003f00e62bffd9";
+
+std::string from_hex(const std::string& hex) {
+    std::string bytes;
+    for (std::size_t i = 0; i < hex.size(); i += 2)
+        bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+    return bytes;
+}
+
+TEST_F(Mask, ReadsJpegAndRefusesHalfOfOne) {
+    const std::string whole = from_hex(kJpeg);
+    const scene::DensityMask mask = load(whole);
+    EXPECT_EQ(mask.width, 8);
+    EXPECT_NEAR(mask.density[9], 0.2, 0.01);
+    testing::internal::CaptureStderr();
+    for (std::size_t n = 0; n < whole.size(); ++n)
+        try {
+            std::string flipped = whole;
+            flipped[n] = static_cast<char>(flipped[n] ^ 0x24);
+            (void)load(n % 2 ? flipped : whole.substr(0, n));
+        } catch (const base::Error& e) {
+            EXPECT_TRUE(e.code() == ExitCode::kBadInput || e.code() == ExitCode::kOverLimit)
+                << e.what();
+        }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST_F(Mask, MapsClassesToDensity) {
     const std::string bytes = png(4, 1, 8, 0, std::string("\0\x0a\x14\x1e\xff", 5));
     EXPECT_EQ(load(bytes, {{10, 1.0}, {20, 0.25}, {255, 0.5}}).density,
