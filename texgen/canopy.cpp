@@ -19,8 +19,10 @@ Outline outline_of(const shared::BladeRecord& blade) {
         const double v = Outline::v_at(i);
         o.centre[i] = root + 2 * v * (1 - v) * v1 + v * v * v2; // blade_curve
         o.half[i] = blade.v1.w * (1 - v * v);                   // blade_outline
-        o.low = glm::min(o.low, glm::min(o.centre[i] - o.half[i] * o.across, o.centre[i] + o.half[i] * o.across));
-        o.high = glm::max(o.high, glm::max(o.centre[i] - o.half[i] * o.across, o.centre[i] + o.half[i] * o.across));
+        o.low = glm::min(o.low, glm::min(o.centre[i] - o.half[i] * o.across,
+                                         o.centre[i] + o.half[i] * o.across));
+        o.high = glm::max(o.high, glm::max(o.centre[i] - o.half[i] * o.across,
+                                           o.centre[i] + o.half[i] * o.across));
     }
     return o;
 }
@@ -48,7 +50,9 @@ double reach(const Patch& patch) {
     for (const shared::BladeRecord& blade : patch.blades) {
         const Outline o = outline_of(blade);
         for (int i = 0; i <= Outline::kSegments; ++i)
-            farthest = std::max(farthest, std::hypot(o.centre[i].x - blade.root.x, o.centre[i].z - blade.root.y) + o.half[i]);
+            farthest = std::max(
+                farthest,
+                std::hypot(o.centre[i].x - blade.root.x, o.centre[i].z - blade.root.y) + o.half[i]);
     }
     return farthest;
 }

@@ -10,8 +10,8 @@
 
 namespace sward::texgen {
 
-/// A blade cut into flat trapezoids, in double: what the rasteriser and the rays see. The chord of a sixteenth of a
-/// blade that bends by 50 degrees is off by 0.1 mm at most, far below a texel.
+/// A blade cut into flat trapezoids, in double: what the rasteriser and the rays see. The chord of
+/// a sixteenth of a blade that bends by 50 degrees is off by 0.1 mm at most, far below a texel.
 struct Outline {
     static constexpr int kSegments = 16;
     std::array<glm::dvec3, kSegments + 1> centre; ///< patch coordinates, not wrapped
@@ -32,6 +32,8 @@ struct Outline {
 [[nodiscard]] double reach(const Patch& patch);
 
 /// Signed distance on a circle of circumference `period`, nearest image.
-[[nodiscard]] inline double nearest_image(double d, double period) { return d - period * std::round(d / period); }
+[[nodiscard]] inline double nearest_image(double d, double period) {
+    return d - period * std::round(d / period);
+}
 
 } // namespace sward::texgen

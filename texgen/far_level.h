@@ -41,9 +41,10 @@ struct TexelImage {
     std::vector<Texel> texels;
 };
 
-/// Next mip: coverage is the mean of the children; blade and place come whole from one child, picked by a hash of the
-/// texel with the children's coverage as weight, so that representative blades stay (B5) and nothing is averaged
-/// across blades. `salt` tells levels, families and mips apart, but not variants: their common border stays common.
+/// Next mip: coverage is the mean of the children; blade and place come whole from one child,
+/// picked by a hash of the texel with the children's coverage as weight, so that representative
+/// blades stay (B5) and nothing is averaged across blades. `salt` tells levels, families and mips
+/// apart, but not variants: their common border stays common.
 [[nodiscard]] TexelImage next_mip(const TexelImage& image, std::uint64_t salt);
 
 } // namespace sward::texgen

@@ -31,7 +31,8 @@ grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double eleva
         const BladeField& field = fields[static_cast<std::size_t>(i) % fields.size()];
         const int number = i / static_cast<int>(fields.size()) + 1;
         const double azimuth = halton(number, 5) * 2 * std::numbers::pi;
-        const glm::dvec3 origin(halton(number, 2) * field.side(), field.canopy(), halton(number, 3) * field.side());
+        const glm::dvec3 origin(halton(number, 2) * field.side(), field.canopy(),
+                                halton(number, 3) * field.side());
         const glm::dvec3 direction(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
                                    std::cos(elevation) * std::sin(azimuth));
         if (const std::optional<RayHit> hit = field.cast(origin, direction)) {

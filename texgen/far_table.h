@@ -8,8 +8,9 @@
 
 namespace sward::texgen {
 
-/// Coverage, mean height and place along the blade that rays through the blades meet, at falling elevations; the rays
-/// spread evenly over places, azimuths and variants.
-[[nodiscard]] std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int threads);
+/// Coverage, mean height and place along the blade that rays through the blades meet, at falling
+/// elevations; the rays spread evenly over places, azimuths and variants.
+[[nodiscard]] std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m,
+                                                   int threads);
 
 } // namespace sward::texgen

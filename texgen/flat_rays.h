@@ -23,15 +23,19 @@ struct FlatUse {
     double slice_share = 1; ///< scales the slices' |dx| and |dz|
 };
 
-/// The far tier as rays see it: shells and both slice families of one level at rest, as models of the renderer and for
-/// calibration. A slice across x shows a blade while seed < |dx|, one across z while seed < |dz| (design, section 1).
+/// The far tier as rays see it: shells and both slice families of one level at rest, as models of
+/// the renderer and for calibration. A slice across x shows a blade while seed < |dx|, one across z
+/// while seed < |dz| (design, section 1).
 class FlatField {
 public:
     FlatField(const grass::GrassSet& set, int variant, int level, FlatUse use)
-        : set_(set), far_(set.levels[static_cast<std::size_t>(level)]), variant_(variant), use_(use) {}
+        : set_(set), far_(set.levels[static_cast<std::size_t>(level)]), variant_(variant),
+          use_(use) {}
 
-    /// `ray` numbers the random stream that turns a texel's coverage into hit or miss. `direction` points down.
-    [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t ray) const;
+    /// `ray` numbers the random stream that turns a texel's coverage into hit or miss. `direction`
+    /// points down.
+    [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction,
+                                              std::uint64_t ray) const;
 
 private:
     struct Ray {
@@ -49,6 +53,7 @@ private:
 };
 
 /// Share of rays that meet a texture at an elevation, places and azimuths spread evenly.
-[[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level, double elevation_deg, FlatUse use, int rays);
+[[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level,
+                                          double elevation_deg, FlatUse use, int rays);
 
 } // namespace sward::texgen

@@ -38,30 +38,40 @@ struct Options {
 
 /// The options and their help, declared once.
 void declare(CLI::App& app, Options& o, std::vector<CLI::Option*>& set_numbers) {
-    app.add_option("PRESET", o.preset, "species preset: a TOML file, or the name of a shipped one (meadow, lawn)")->required();
-    app.add_option("-o,--output", o.output, "directory of the grass set; an earlier set there is replaced")->required();
-    const char* help[] = {"random seed; the same seed gives the same bytes", "patches that may stand side by side",
-                          "texels a side at level 0, a power of two", "horizontal layers at level 0",
-                          "vertical slices an axis at level 0"};
+    app.add_option("PRESET", o.preset,
+                   "species preset: a TOML file, or the name of a shipped one (meadow, lawn)")
+        ->required();
+    app.add_option("-o,--output", o.output,
+                   "directory of the grass set; an earlier set there is replaced")
+        ->required();
+    const char* help[] = {"random seed; the same seed gives the same bytes",
+                          "patches that may stand side by side",
+                          "texels a side at level 0, a power of two",
+                          "horizontal layers at level 0", "vertical slices an axis at level 0"};
     for (std::size_t i = 0; i < o.overrides.size(); ++i)
-        set_numbers.push_back(app.add_option(o.overrides[i].first, o.values[i], help[i])->type_name("N"));
-    app.add_option("--threads", o.threads, "worker threads, 0 for one a core; the result is the same")
+        set_numbers.push_back(
+            app.add_option(o.overrides[i].first, o.values[i], help[i])->type_name("N"));
+    app.add_option("--threads", o.threads,
+                   "worker threads, 0 for one a core; the result is the same")
         ->type_name("N")
         ->check(CLI::Range(0, 1024));
     app.add_flag("--no-preview", o.no_preview, "leave out preview.png");
-    app.add_flag("--no-volume", o.no_volume, "leave out volume.vdb (the renderer does not read it)");
+    app.add_flag("--no-volume", o.no_volume,
+                 "leave out volume.vdb (the renderer does not read it)");
     app.add_flag("-q,--quiet", o.quiet, "errors and warnings only");
     app.add_flag("-v,--verbose", o.verbose, "time each step");
     app.set_version_flag("--version", fmt::format("texgen {}", SWARD_VERSION));
 }
 
 void run(const Options& o, const std::vector<CLI::Option*>& set_numbers) {
-    const std::vector<fs::path> folders = {SWARD_PRESETS, base::executable_directory() / "../share/sward/presets"};
+    const std::vector<fs::path> folders = {SWARD_PRESETS,
+                                           base::executable_directory() / "../share/sward/presets"};
     const fs::path path = texgen::find_preset(o.preset, folders);
     texgen::Preset preset = texgen::load_preset(path);
     for (std::size_t i = 0; i < set_numbers.size(); ++i)
         if (set_numbers[i]->count() > 0)
-            texgen::override_preset(preset, o.overrides[i].first, o.overrides[i].second, o.values[i]);
+            texgen::override_preset(preset, o.overrides[i].first, o.overrides[i].second,
+                                    o.values[i]);
     texgen::check_preset(preset, path);
     // "sets/meadow/" names the same directory as "sets/meadow".
     fs::path output = fs::path(o.output).lexically_normal();
@@ -75,7 +85,9 @@ void run(const Options& o, const std::vector<CLI::Option*>& set_numbers) {
     texgen::write_set(texgen::bake_set(preset, options), preset, output, options);
 }
 
-int exit_code(base::ExitCode code) { return static_cast<int>(code); }
+int exit_code(base::ExitCode code) {
+    return static_cast<int>(code);
+}
 
 } // namespace
 
@@ -92,7 +104,9 @@ int main(int argc, char** argv) {
         base::log_error(base::printable(problem.what(), 200));
         return exit_code(base::ExitCode::kUsage);
     }
-    base::set_verbosity(options.quiet ? base::Verbosity::kQuiet : options.verbose ? base::Verbosity::kVerbose : base::Verbosity::kNormal);
+    base::set_verbosity(options.quiet     ? base::Verbosity::kQuiet
+                        : options.verbose ? base::Verbosity::kVerbose
+                                          : base::Verbosity::kNormal);
     base::install_signal_cleanup();
     try {
         run(options, set_numbers);

@@ -7,7 +7,8 @@
 namespace sward::texgen {
 namespace {
 
-/// The at most three texels of a row of `from` that one texel of `to` covers, with their shares of it.
+/// The at most three texels of a row of `from` that one texel of `to` covers, with their shares of
+/// it.
 struct Footprint {
     int index[3] = {};
     float share[3] = {};
@@ -17,7 +18,8 @@ struct Footprint {
 std::vector<Footprint> footprints(int from, int to) {
     std::vector<Footprint> all(static_cast<std::size_t>(to));
     for (int i = 0; i < to; ++i) {
-        const double low = static_cast<double>(i) * from / to, high = static_cast<double>(i + 1) * from / to;
+        const double low = static_cast<double>(i) * from / to,
+                     high = static_cast<double>(i + 1) * from / to;
         Footprint& f = all[static_cast<std::size_t>(i)];
         for (int j = static_cast<int>(low); j < from && j < high && f.count < 3; ++j) {
             const double part = std::min(high, j + 1.0) - std::max(low, static_cast<double>(j));
@@ -45,7 +47,8 @@ TexelImage next_mip(const TexelImage& image, std::uint64_t salt) {
             float sum = 0;
             for (int j = 0; j < row.count; ++j)
                 for (int i = 0; i < column.count; ++i) {
-                    const Texel& texel = image.texels[static_cast<std::size_t>(row.index[j]) * static_cast<std::size_t>(image.width) +
+                    const Texel& texel = image.texels[static_cast<std::size_t>(row.index[j]) *
+                                                          static_cast<std::size_t>(image.width) +
                                                       static_cast<std::size_t>(column.index[i])];
                     if (texel.blade < 0)
                         continue;

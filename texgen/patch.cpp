@@ -25,7 +25,8 @@ constexpr double kTuftSpread = 50 * kPi / 180;   // blades of a tuft lean away f
 /// The random numbers of one blade, in a fixed order.
 class Draw {
 public:
-    Draw(const Preset& preset, std::uint64_t id) : seed_(static_cast<std::uint64_t>(preset.seed)), id_(id) {}
+    Draw(const Preset& preset, std::uint64_t id)
+        : seed_(static_cast<std::uint64_t>(preset.seed)), id_(id) {}
     double unit() { return base::hash_unit(seed_, kShape, id_ * 16 + next_++); }
     double spread() { return unit() * 2 - 1; }
     double in(const Range& r) { return std::lerp(r.low, r.high, unit()); }
@@ -49,7 +50,8 @@ BladeRecord grow(const Preset& preset, const Sprout& sprout) {
         azimuth = std::atan2(sprout.out_z, sprout.out_x) + draw.spread() * kTuftSpread;
         lean_share = (lean_share + out) / 2;
     }
-    const double lean = std::lerp(preset.lean_deg.low, preset.lean_deg.high, lean_share) * kPi / 180;
+    const double lean =
+        std::lerp(preset.lean_deg.low, preset.lean_deg.high, lean_share) * kPi / 180;
     const double weight = droop * kDroopDeg * length / preset.length_m.high;
     const double bend = (draw.in(preset.curvature_deg) + weight) * kPi / 180;
     const RestCurve curve = rest_curve(length, lean, bend, azimuth);
@@ -75,8 +77,8 @@ float quantised(std::size_t position, std::size_t count) {
     return (static_cast<float>(position * 256 / count) + 0.5f) / 256.0f;
 }
 
-/// Seed position of each rank position: the golden-ratio sequence sorted, so that any run of ranks holds all seeds
-/// evenly (neither hand-over nor mask nor slice choice disturbs the others).
+/// Seed position of each rank position: the golden-ratio sequence sorted, so that any run of ranks
+/// holds all seeds evenly (neither hand-over nor mask nor slice choice disturbs the others).
 std::vector<std::size_t> seed_positions(std::size_t count, std::uint64_t seed) {
     const double shift = base::hash_unit(seed, kSeedShift, 0);
     std::vector<double> key(count);
@@ -95,7 +97,8 @@ std::vector<std::size_t> seed_positions(std::size_t count, std::uint64_t seed) {
 
 /// The blades of one variant by rising rank, and the point at each position.
 std::vector<BladeRecord> grow_variant(const Preset& preset, const Roots& roots, std::size_t variant,
-                                      std::span<const std::int32_t> fixed, std::vector<std::uint32_t>& order) {
+                                      std::span<const std::int32_t> fixed,
+                                      std::vector<std::uint32_t>& order) {
     std::vector<BladeRecord> grown;
     std::vector<vec2> points;
     for (const auto* part : {&roots.border, &roots.interior[variant]})
@@ -138,7 +141,8 @@ double curve_length(vec3 v1, vec3 v2) {
         const double s = std::sqrt(std::max(a * v * v + b * v + c, 0.0));
         const double ra = std::sqrt(a);
         return (2 * a * v + b) / (4 * a) * s +
-               (4 * a * c - b * b) / (8 * a * ra) * std::log(std::abs(2 * ra * s + 2 * a * v + b) + 1e-300);
+               (4 * a * c - b * b) / (8 * a * ra) *
+                   std::log(std::abs(2 * ra * s + 2 * a * v + b) + 1e-300);
     };
     return 2 * (integral(1) - integral(0));
 }
@@ -146,8 +150,8 @@ double curve_length(vec3 v1, vec3 v2) {
 Patch generate_patch(const Preset& preset, int threads) {
     const Roots roots = scatter_roots(preset);
     const std::size_t border = roots.border.size();
-    const std::vector<std::size_t> seeds =
-        seed_positions(border + roots.interior.front().size(), static_cast<std::uint64_t>(preset.seed));
+    const std::vector<std::size_t> seeds = seed_positions(border + roots.interior.front().size(),
+                                                          static_cast<std::uint64_t>(preset.seed));
     std::vector<std::vector<BladeRecord>> variants(roots.interior.size());
     // The first variant decides the border's ranks; the others fill in around them.
     std::vector<std::int32_t> fixed;

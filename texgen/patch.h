@@ -22,13 +22,13 @@ struct Patch {
     }
 };
 
-/// Blades of a species on its patch (J2): single blades uniform, tufts Poisson-disk. Every variant has the same number
-/// of blades, and every blade with its root within border_width() of an edge is the same, at the same index, in all.
-/// Depends on the preset alone, not on the number of threads.
+/// Blades of a species on its patch (J2): single blades uniform, tufts Poisson-disk. Every variant
+/// has the same number of blades, and every blade with its root within border_width() of an edge is
+/// the same, at the same index, in all. Depends on the preset alone, not on the number of threads.
 [[nodiscard]] Patch generate_patch(const Preset& preset, int threads);
 
-/// Rest pose of a blade: a quadratic Bezier near the circular arc that starts `lean` from the vertical and turns by
-/// `bend` (radians) towards `azimuth`, its curve exactly `length` long.
+/// Rest pose of a blade: a quadratic Bezier near the circular arc that starts `lean` from the
+/// vertical and turns by `bend` (radians) towards `azimuth`, its curve exactly `length` long.
 struct RestCurve {
     shared::vec3 v1{};
     shared::vec3 v2{};
@@ -38,12 +38,14 @@ struct RestCurve {
 /// Length of the Bezier 0, v1, v2, closed form.
 [[nodiscard]] double curve_length(shared::vec3 v1, shared::vec3 v2);
 
-/// A root before its blade has grown: place, number of its random stream, and the tuft it stands in.
+/// A root before its blade has grown: place, number of its random stream, and the tuft it stands
+/// in.
 struct Sprout {
     double x = 0;
     double z = 0;
-    std::uint64_t id = 0;      ///< unique over the patch's border and each variant's interior
-    double out_x = 0;          ///< offset from the tuft's centre as a share of its radius; 0 for a single blade
+    std::uint64_t id = 0; ///< unique over the patch's border and each variant's interior
+    double out_x =
+        0; ///< offset from the tuft's centre as a share of its radius; 0 for a single blade
     double out_z = 0;
 };
 
@@ -54,10 +56,12 @@ struct Roots {
 };
 [[nodiscard]] Roots scatter_roots(const Preset& preset);
 
-/// Orders points so that every prefix is as evenly spread as the points themselves allow (a progressive
-/// void-and-cluster, toroidal). `fixed[p]` >= 0 puts that point at position p; such points are placed there only.
-/// Returns the point at each position.
-[[nodiscard]] std::vector<std::uint32_t> progressive_order(std::span<const shared::vec2> points, double side,
-                                                           std::span<const std::int32_t> fixed, std::uint64_t seed);
+/// Orders points so that every prefix is as evenly spread as the points themselves allow (a
+/// progressive void-and-cluster, toroidal). `fixed[p]` >= 0 puts that point at position p; such
+/// points are placed there only. Returns the point at each position.
+[[nodiscard]] std::vector<std::uint32_t> progressive_order(std::span<const shared::vec2> points,
+                                                           double side,
+                                                           std::span<const std::int32_t> fixed,
+                                                           std::uint64_t seed);
 
 } // namespace sward::texgen

@@ -24,20 +24,21 @@ struct Preset {
     std::string name = "unnamed";
     std::int64_t seed = 1;
 
-    double side_m = 2;            ///< period of the patch; memory and time grow with its square
-    double density_per_m2 = 700;  ///< blades
-    std::int64_t variants = 4;    ///< patches that may stand side by side; more hide the period
+    double side_m = 2;           ///< period of the patch; memory and time grow with its square
+    double density_per_m2 = 700; ///< blades
+    std::int64_t variants = 4;   ///< patches that may stand side by side; more hide the period
 
-    double tuft_share = 0.55;     ///< share of the blades that stand in tufts
+    double tuft_share = 0.55; ///< share of the blades that stand in tufts
     Range tuft_radius_m{0.03, 0.08};
     Range tuft_blades{8, 22};
 
-    Range length_m{0.18, 0.36};   ///< along the curve
-    Range width_m{0.004, 0.007};  ///< full width at the root
-    Range lean_deg{0, 16};        ///< of the root from the vertical
-    Range curvature_deg{5, 34};   ///< angle between the tangents of root and tip
-    Range stiffness{0.35, 0.8};   ///< 0 limp, 1 stiff: for the physics, no effect on the rest pose
-    Range droop{0, 0.35};         ///< weight's part of the curve: adds up to kDroopDeg for a blade of full length
+    Range length_m{0.18, 0.36};  ///< along the curve
+    Range width_m{0.004, 0.007}; ///< full width at the root
+    Range lean_deg{0, 16};       ///< of the root from the vertical
+    Range curvature_deg{5, 34};  ///< angle between the tangents of root and tip
+    Range stiffness{0.35, 0.8};  ///< 0 limp, 1 stiff: for the physics, no effect on the rest pose
+    Range droop{
+        0, 0.35}; ///< weight's part of the curve: adds up to kDroopDeg for a blade of full length
 
     Colour root{0.052, 0.088, 0.022};
     Colour tip{0.078, 0.152, 0.032};
@@ -51,35 +52,39 @@ struct Preset {
     double ps = 18;
     double translucency = 0.45;
 
-    std::int64_t size = 512;      ///< texels a side at level 0, a power of two; a texel should be as wide as a blade
-    std::int64_t layers = 12;     ///< shells at level 0
-    std::int64_t slices = 16;     ///< vertical slices an axis and patch side at level 0
-    std::int64_t levels = 4;      ///< each halves size, layers and slices
+    std::int64_t size =
+        512; ///< texels a side at level 0, a power of two; a texel should be as wide as a blade
+    std::int64_t layers = 12; ///< shells at level 0
+    std::int64_t slices = 16; ///< vertical slices an axis and patch side at level 0
+    std::int64_t levels = 4;  ///< each halves size, layers and slices
 };
 
 inline constexpr double kDroopDeg = 40;
 
-/// Reads and checks a preset. Throws base::Error that names file, line, key, value and range: kIo, kBadInput, kOverLimit.
+/// Reads and checks a preset. Throws base::Error that names file, line, key, value and range: kIo,
+/// kBadInput, kOverLimit.
 [[nodiscard]] Preset load_preset(const std::filesystem::path& path);
 [[nodiscard]] Preset parse_preset(const std::string& text, const std::filesystem::path& name);
 
 /// Sets one number as `--option VALUE` does, checked against the range of `key` ("texture.size").
 /// Throws base::Error(kUsage).
-void override_preset(Preset& preset, const std::string& option, const std::string& key, std::int64_t value);
+void override_preset(Preset& preset, const std::string& option, const std::string& key,
+                     std::int64_t value);
 
-/// Checks what no single key shows: number of blades, reach against the patch side, memory. `origin` leads the message.
-/// Throws base::Error: kBadInput or kOverLimit.
+/// Checks what no single key shows: number of blades, reach against the patch side, memory.
+/// `origin` leads the message. Throws base::Error: kBadInput or kOverLimit.
 void check_preset(const Preset& preset, const std::filesystem::path& origin);
 
-/// `argument` as a path, else the name of a shipped preset (".toml" may be left out) in one of `folders`.
-/// Throws base::Error(kIo) that lists the shipped presets.
+/// `argument` as a path, else the name of a shipped preset (".toml" may be left out) in one of
+/// `folders`. Throws base::Error(kIo) that lists the shipped presets.
 [[nodiscard]] std::filesystem::path find_preset(const std::string& argument,
                                                 const std::vector<std::filesystem::path>& folders);
 
 /// Upper bound of how far any blade of the species reaches sideways from its root, metres.
 [[nodiscard]] double reach_bound(const Preset& preset);
 
-/// Width of the rim inside which all variants are the same: reach plus a margin for the blades' own neighbours.
+/// Width of the rim inside which all variants are the same: reach plus a margin for the blades' own
+/// neighbours.
 [[nodiscard]] double border_width(const Preset& preset);
 
 [[nodiscard]] shared::GrassAppearance appearance(const Preset& preset);

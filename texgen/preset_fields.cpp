@@ -49,9 +49,12 @@ std::string Field::expected() const {
     static constexpr std::string_view kKinds[] = {"text of", "a whole number from", "a number from",
                                                   "[low, high], two rising numbers from",
                                                   "[r, g, b], three numbers from"};
-    return fmt::format("{} {} to {}{}{}", kKinds[target.index()], low, high, unit.empty() ? "" : " ", unit);
+    return fmt::format("{} {} to {}{}{}", kKinds[target.index()], low, high,
+                       unit.empty() ? "" : " ", unit);
 }
 
-std::span<const Field> preset_fields() { return kFields; }
+std::span<const Field> preset_fields() {
+    return kFields;
+}
 
 } // namespace sward::texgen

@@ -11,11 +11,11 @@
 
 namespace sward::texgen {
 
-/// One key of a preset: where it stands, what it may hold, where it goes. The one list that the reader, the range
-/// checks of the command line and the messages share.
+/// One key of a preset: where it stands, what it may hold, where it goes. The one list that the
+/// reader, the range checks of the command line and the messages share.
 struct Field {
-    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*, Range Preset::*,
-                                Colour Preset::*>;
+    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*,
+                                Range Preset::*, Colour Preset::*>;
     std::string_view section; ///< empty: top level
     std::string_view key;
     Target target;

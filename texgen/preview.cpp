@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A contact sheet that shows at a look whether a set is good: blades in perspective, top view, tiling, side view, mips.
+// A contact sheet that shows at a look whether a set is good: blades in perspective, top view,
+// tiling, side view, mips.
 #include "texgen/preview.h"
 
 #include <algorithm>
@@ -23,20 +24,23 @@ const dvec3 kSoil(0.075, 0.055, 0.038);
 const dvec3 kSky(0.45, 0.60, 0.80);
 constexpr double kExposure = 3.2; // grass reflects a tenth: shown near the middle of the scale
 
-/// A simple stand-in for the renderer's shading (G4): colour along the blade, dry blades, Kajiya-Kay, dark below.
+/// A simple stand-in for the renderer's shading (G4): colour along the blade, dry blades,
+/// Kajiya-Kay, dark below.
 class Shader {
 public:
     explicit Shader(const grass::GrassSet& set) : look_(set.appearance) {}
 
     dvec3 colour(double along, double seed, dvec3 tangent, double height) const {
         const auto number = static_cast<std::uint64_t>(seed * 256);
-        const double pick = base::hash_unit(11, 1, number), shade = base::hash_unit(11, 2, number), hue = base::hash_unit(11, 3, number);
+        const double pick = base::hash_unit(11, 1, number), shade = base::hash_unit(11, 2, number),
+                     hue = base::hash_unit(11, 3, number);
         dvec3 c = glm::mix(dvec3(look_.root), dvec3(look_.tip), along);
         const double variation = look_.tip.w;
         c = glm::mix(c, dvec3(look_.dry), pick < look_.root.w ? 0.85 : 0.25 * variation * hue);
         c *= 1 + variation * (shade - 0.5);
         const double across = std::sqrt(std::max(0.0, 1 - std::pow(glm::dot(tangent, kSun), 2)));
-        const double open = 0.22 + 0.78 * std::clamp(height, 0.0, 1.0); // how much of the sky is seen
+        const double open =
+            0.22 + 0.78 * std::clamp(height, 0.0, 1.0); // how much of the sky is seen
         return c * open * (0.35 + look_.light.x * std::pow(across, look_.light.y));
     }
     static dvec3 ground() { return kSoil * 0.5; }
@@ -50,9 +54,17 @@ struct Canvas {
     int width, height;
     std::vector<dvec3> texels;
 
-    Canvas(int w, int h, dvec3 fill) : width(w), height(h), texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
-    dvec3& at(int x, int y) { return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
-    const dvec3& at(int x, int y) const { return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)]; }
+    Canvas(int w, int h, dvec3 fill)
+        : width(w), height(h),
+          texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
+    dvec3& at(int x, int y) {
+        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
+    const dvec3& at(int x, int y) const {
+        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
 
     /// Area average of `source` over the rectangle at x0, y0.
     void place(const Canvas& source, int x0, int y0, int w, int h) {
@@ -75,23 +87,30 @@ class Image {
 public:
     Image(const grass::TextureArray& array, int id_index, int shape_index, int mip)
         : width(std::max(1, array.width >> mip)), height(std::max(1, array.height >> mip)),
-          id_(array.mips[static_cast<std::size_t>(mip)].data() + bytes() * static_cast<std::size_t>(id_index)),
-          shape_(array.mips[static_cast<std::size_t>(mip)].data() + bytes() * static_cast<std::size_t>(shape_index)) {}
+          id_(array.mips[static_cast<std::size_t>(mip)].data() +
+              bytes() * static_cast<std::size_t>(id_index)),
+          shape_(array.mips[static_cast<std::size_t>(mip)].data() +
+                 bytes() * static_cast<std::size_t>(shape_index)) {}
 
     /// Colour and coverage of a texel.
     std::pair<dvec3, double> texel(const Shader& shader, int x, int y, double layer_height) const {
-        const std::size_t t = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+        const std::size_t t = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                   static_cast<std::size_t>(x));
         const double coverage = id_[t] / 255.0;
         if (coverage == 0)
             return {dvec3(0), 0};
-        const shared::vec3 tangent = shared::decode_tangent(shared::vec2(shape_[t], shape_[t + 1]) / 255.0f);
-        return {shader.colour(id_[t + 3] / 255.0, (id_[t + 2] + 0.5) / 256, tangent, layer_height), coverage};
+        const shared::vec3 tangent =
+            shared::decode_tangent(shared::vec2(shape_[t], shape_[t + 1]) / 255.0f);
+        return {shader.colour(id_[t + 3] / 255.0, (id_[t + 2] + 0.5) / 256, tangent, layer_height),
+                coverage};
     }
 
     const int width, height;
 
 private:
-    [[nodiscard]] std::size_t bytes() const { return 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+    [[nodiscard]] std::size_t bytes() const {
+        return 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
     const std::uint8_t* id_;
     const std::uint8_t* shape_;
 };
@@ -102,11 +121,13 @@ Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int
     Canvas canvas(far.layers.width, far.layers.height, dvec3(0));
     std::vector<double> clear(canvas.texels.size(), 1.0);
     for (int i = far.layer_count - 1; i >= 0; --i) {
-        const Image image(far.layers, shared::layer_index(variant, i, far.layer_count, shared::kPlaneId),
+        const Image image(far.layers,
+                          shared::layer_index(variant, i, far.layer_count, shared::kPlaneId),
                           shared::layer_index(variant, i, far.layer_count, shared::kPlaneShape), 0);
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
-                const auto [colour, coverage] = image.texel(shader, x, y, (i + 0.5) / far.layer_count);
+                const auto [colour, coverage] =
+                    image.texel(shader, x, y, (i + 0.5) / far.layer_count);
                 double& open = clear[static_cast<std::size_t>(y * canvas.width + x)];
                 canvas.at(x, y) += colour * coverage * open;
                 open *= 1 - coverage;
@@ -123,11 +144,14 @@ Canvas side_view(const grass::GrassSet& set, const Shader& shader) {
     Canvas canvas(far.slices.width, far.slices.height, dvec3(0));
     std::vector<double> clear(canvas.texels.size(), 1.0);
     for (int i = 0; i < std::max(1, far.slice_count / 4); ++i) {
-        const Image image(far.slices, shared::slice_index(0, shared::kAxisZ, i, far.slice_count, shared::kPlaneId),
-                          shared::slice_index(0, shared::kAxisZ, i, far.slice_count, shared::kPlaneShape), 0);
+        const Image image(
+            far.slices,
+            shared::slice_index(0, shared::kAxisZ, i, far.slice_count, shared::kPlaneId),
+            shared::slice_index(0, shared::kAxisZ, i, far.slice_count, shared::kPlaneShape), 0);
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
-                const auto [colour, coverage] = image.texel(shader, x, canvas.height - 1 - y, 1 - (y + 0.5) / canvas.height);
+                const auto [colour, coverage] =
+                    image.texel(shader, x, canvas.height - 1 - y, 1 - (y + 0.5) / canvas.height);
                 double& open = clear[static_cast<std::size_t>(y * canvas.width + x)];
                 canvas.at(x, y) += colour * coverage * open;
                 open *= 1 - coverage;
@@ -173,28 +197,39 @@ Canvas mip_view(const grass::GrassSet& set, const Shader& shader, int mip) {
 Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads) {
     constexpr int kSide = 2; // samples
     Canvas canvas(kPanel * 3 / 2, kPanel, dvec3(0));
-    const BladeField field(std::span(set.blades).subspan(0, set.variant_begin[1]), set.side_m, set.canopy_m);
+    const BladeField field(std::span(set.blades).subspan(0, set.variant_begin[1]), set.side_m,
+                           set.canopy_m);
     const double canopy = set.canopy_m;
     const dvec3 eye(0.3, canopy * 3.2, 0.2);
     const double pitch = -0.50, focal = 1.4;
-    parallel_for(static_cast<std::size_t>(canvas.height), resolve_threads(threads), [&](std::size_t row, int) {
-        for (int x = 0; x < canvas.width; ++x)
-            for (int s = 0; s < kSide * kSide; ++s) {
-                const double u = (x + (s % kSide + 0.5) / kSide - canvas.width / 2.0) / (canvas.height / 2.0);
-                const double v = 1 - (static_cast<double>(row) + (s / kSide + 0.5) / kSide) / (canvas.height / 2.0);
-                const dvec3 ahead(0.5, 0, -0.866), right(0.866, 0, 0.5), up(0, 1, 0);
-                const dvec3 view = focal * (std::cos(pitch) * ahead + std::sin(pitch) * up) + u * right +
-                                   v * (std::cos(pitch) * up - std::sin(pitch) * ahead);
-                const dvec3 direction = glm::normalize(view);
-                dvec3 colour = direction.y > -0.02 ? kSky * 0.3 : Shader::ground();
-                if (const auto hit = direction.y < -0.02 ? field.cast(eye, direction) : std::nullopt) {
-                    const shared::BladeRecord& blade = set.blades[hit->blade];
-                    const dvec3 tangent = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), static_cast<float>(hit->along));
-                    colour = shader.colour(hit->along, blade.root.w, tangent, hit->position.y / canopy);
+    parallel_for(
+        static_cast<std::size_t>(canvas.height), resolve_threads(threads),
+        [&](std::size_t row, int) {
+            for (int x = 0; x < canvas.width; ++x)
+                for (int s = 0; s < kSide * kSide; ++s) {
+                    const double u = (x + (s % kSide + 0.5) / kSide - canvas.width / 2.0) /
+                                     (canvas.height / 2.0);
+                    const double v = 1 - (static_cast<double>(row) + (s / kSide + 0.5) / kSide) /
+                                             (canvas.height / 2.0);
+                    const dvec3 ahead(0.5, 0, -0.866), right(0.866, 0, 0.5), up(0, 1, 0);
+                    const dvec3 view = focal * (std::cos(pitch) * ahead + std::sin(pitch) * up) +
+                                       u * right +
+                                       v * (std::cos(pitch) * up - std::sin(pitch) * ahead);
+                    const dvec3 direction = glm::normalize(view);
+                    dvec3 colour = direction.y > -0.02 ? kSky * 0.3 : Shader::ground();
+                    if (const auto hit =
+                            direction.y < -0.02 ? field.cast(eye, direction) : std::nullopt) {
+                        const shared::BladeRecord& blade = set.blades[hit->blade];
+                        const dvec3 tangent =
+                            shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2),
+                                                  static_cast<float>(hit->along));
+                        colour = shader.colour(hit->along, blade.root.w, tangent,
+                                               hit->position.y / canopy);
+                    }
+                    canvas.at(x, static_cast<int>(row)) +=
+                        colour / static_cast<double>(kSide * kSide);
                 }
-                canvas.at(x, static_cast<int>(row)) += colour / static_cast<double>(kSide * kSide);
-            }
-    });
+        });
     return canvas;
 }
 
@@ -216,7 +251,8 @@ void write_preview(const grass::GrassSet& set, const std::filesystem::path& path
     const Shader shader(set);
     const int width = kPanel * 3 / 2 + 2 * kPanel + 4 * kMargin;
     const int full = width - 2 * kMargin;
-    const int side_rows = std::clamp(static_cast<int>(full * set.canopy_m / set.side_m), 24, kPanel);
+    const int side_rows =
+        std::clamp(static_cast<int>(full * set.canopy_m / set.side_m), 24, kPanel);
     constexpr int kMips = 5;
     const int mip_side = (full - (kMips - 1) * kMargin) / kMips;
     Canvas sheet(width, kPanel + side_rows + mip_side + 4 * kMargin, dvec3(0.01));
@@ -225,7 +261,8 @@ void write_preview(const grass::GrassSet& set, const std::filesystem::path& path
     sheet.place(tiling(set, shader), kPanel * 5 / 2 + 3 * kMargin, kMargin, kPanel, kPanel);
     sheet.place(side_view(set, shader), kMargin, kPanel + 2 * kMargin, full, side_rows);
     for (int m = 0; m < kMips; ++m)
-        sheet.place(mip_view(set, shader, m), kMargin + m * (mip_side + kMargin), kPanel + side_rows + 3 * kMargin, mip_side, mip_side);
+        sheet.place(mip_view(set, shader, m), kMargin + m * (mip_side + kMargin),
+                    kPanel + side_rows + 3 * kMargin, mip_side, mip_side);
     assets::write_png(path, encode(sheet));
 }
 

@@ -9,15 +9,19 @@ namespace sward::texgen {
 namespace {
 
 constexpr int kSamples = 8; // a side: 64 bits a texel
-// Sample columns shift from row to row, so that an upright edge meets 64 different places of a texel, not 8.
-constexpr double kRowShift[kSamples] = {-0.4375, 0.0625, -0.1875, 0.3125, -0.3125, 0.1875, -0.0625, 0.4375};
+// Sample columns shift from row to row, so that an upright edge meets 64 different places of a
+// texel, not 8.
+constexpr double kRowShift[kSamples] = {-0.4375, 0.0625, -0.1875, 0.3125,
+                                        -0.3125, 0.1875, -0.0625, 0.4375};
 
 int floor_mod(int a, int b) {
     const int r = a % b;
     return r < 0 ? r + b : r;
 }
 
-int floor_div(int a, int b) { return (a - floor_mod(a, b)) / b; }
+int floor_div(int a, int b) {
+    return (a - floor_mod(a, b)) / b;
+}
 
 } // namespace
 
@@ -48,7 +52,8 @@ struct SlabRaster::Piece {
 
 const std::vector<Texel>& SlabRaster::draw(const Slab& slab, std::span<const Outline> blades) {
     slab_ = slab;
-    const auto texels = static_cast<std::size_t>(slab.width) * static_cast<std::size_t>(slab.height);
+    const auto texels =
+        static_cast<std::size_t>(slab.width) * static_cast<std::size_t>(slab.height);
     texels_.assign(texels, {});
     all_.assign(texels, 0);
     mask_.assign(texels, 0);
@@ -86,8 +91,10 @@ void SlabRaster::segment(const Outline& blade, int i, double shift) {
     piece.corner[3] = corner(i + 1, -1);
     piece.count = 4;
     // v is constant along the width direction, so it falls off across that direction's image.
-    const double across_u = blade.across[axes.u] * scale_u, across_v = blade.across[axes.v] * scale_v;
-    const double from_u = blade.centre[i][axes.u] * scale_u, from_v = blade.centre[i][axes.v] * scale_v;
+    const double across_u = blade.across[axes.u] * scale_u,
+                 across_v = blade.across[axes.v] * scale_v;
+    const double from_u = blade.centre[i][axes.u] * scale_u,
+                 from_v = blade.centre[i][axes.v] * scale_v;
     const double step = (blade.centre[i + 1][axes.v] * scale_v - from_v) * across_u -
                         (blade.centre[i + 1][axes.u] * scale_u - from_u) * across_v;
     const double gain = std::abs(step) > 1e-9 ? 1.0 / (Outline::kSegments * step) : 0.0;
@@ -121,7 +128,8 @@ void SlabRaster::fill(const Piece& piece) {
             right = std::max(right, u);
         }
         const double offset = 0.5 + kRowShift[floor_mod(row, kSamples)];
-        span(row, static_cast<int>(std::ceil(left - offset)), static_cast<int>(std::ceil(right - offset)), piece);
+        span(row, static_cast<int>(std::ceil(left - offset)),
+             static_cast<int>(std::ceil(right - offset)), piece);
     }
 }
 
@@ -135,14 +143,17 @@ void SlabRaster::span(int row, int first, int last, const Piece& piece) {
         const int column = floor_div(first, kSamples);
         const int begin = first - column * kSamples;
         const int end = std::min(last - column * kSamples, kSamples);
-        const std::uint64_t bits = ((std::uint64_t{1} << (end - begin)) - 1) << begin << (floor_mod(row, kSamples) * kSamples);
+        const std::uint64_t bits = ((std::uint64_t{1} << (end - begin)) - 1)
+                                   << begin << (floor_mod(row, kSamples) * kSamples);
         const auto t = static_cast<std::size_t>(texel_row) * static_cast<std::size_t>(slab_.width) +
                        static_cast<std::size_t>(floor_mod(column, slab_.width));
         if (mask_[t] == 0)
             touched_.push_back(static_cast<std::uint32_t>(t));
         const std::uint64_t fresh = bits & ~mask_[t];
         mask_[t] |= bits;
-        const double along = piece.along0 + piece.along_u * (column * kSamples + (begin + end) * 0.5) + piece.along_v * (row + 0.5);
+        const double along = piece.along0 +
+                             piece.along_u * (column * kSamples + (begin + end) * 0.5) +
+                             piece.along_v * (row + 0.5);
         along_sum_[t] += static_cast<float>(std::popcount(fresh) * std::clamp(along, 0.0, 1.0));
         first = column * kSamples + end;
     }

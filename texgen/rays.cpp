@@ -22,7 +22,8 @@ struct Walk {
     double delta; ///< between borders
 
     Walk(double origin, double direction, double width)
-        : cell(static_cast<int>(std::floor(origin / width))), step(direction > 0 ? 1 : -1), next(1e30), delta(1e30) {
+        : cell(static_cast<int>(std::floor(origin / width))), step(direction > 0 ? 1 : -1),
+          next(1e30), delta(1e30) {
         if (std::abs(direction) < 1e-12)
             return;
         delta = width / std::abs(direction);
@@ -37,7 +38,8 @@ struct Walk {
 } // namespace
 
 BladeField::BladeField(std::span<const shared::BladeRecord> blades, double side, double canopy)
-    : side_(side), canopy_(canopy), cells_(kCells), outlines_(outlines_of(blades)), grid_(kCells * kCells) {
+    : side_(side), canopy_(canopy), cells_(kCells), outlines_(outlines_of(blades)),
+      grid_(kCells * kCells) {
     for (std::uint32_t b = 0; b < outlines_.size(); ++b)
         for (int i = 0; i < Outline::kSegments; ++i)
             bin(b, i);
@@ -55,15 +57,19 @@ void BladeField::bin(std::uint32_t blade, int segment) {
     const auto tile = [&](int c) { return (c - floor_mod(c, cells_)) / cells_; };
     for (int z = index(low.z - 1e-9); z <= index(high.z + 1e-9); ++z)
         for (int x = index(low.x - 1e-9); x <= index(high.x + 1e-9); ++x)
-            grid_[static_cast<std::size_t>(floor_mod(z, cells_) * cells_ + floor_mod(x, cells_))].push_back(
-                {blade, static_cast<float>(low.y - 1e-6), static_cast<float>(high.y + 1e-6), static_cast<std::uint8_t>(segment), static_cast<std::int8_t>(-tile(x)), static_cast<std::int8_t>(-tile(z))});
+            grid_[static_cast<std::size_t>(floor_mod(z, cells_) * cells_ + floor_mod(x, cells_))]
+                .push_back({blade, static_cast<float>(low.y - 1e-6),
+                            static_cast<float>(high.y + 1e-6), static_cast<std::uint8_t>(segment),
+                            static_cast<std::int8_t>(-tile(x)),
+                            static_cast<std::int8_t>(-tile(z))});
 }
 
 const std::vector<BladeField::Item>& BladeField::cell(int x, int z) const {
     return grid_[static_cast<std::size_t>(floor_mod(z, cells_) * cells_ + floor_mod(x, cells_))];
 }
 
-void BladeField::meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction, std::optional<RayHit>& best) const {
+void BladeField::meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction,
+                      std::optional<RayHit>& best) const {
     const Outline& o = outlines_[item.blade];
     const int i = item.segment;
     const glm::dvec3 along = o.centre[i + 1] - o.centre[i];
@@ -89,27 +95,31 @@ void BladeField::meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction,
     best = RayHit{t, item.blade, (i + a) / Outline::kSegments, {}, normal / glm::length(normal)};
 }
 
-std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction) const {
+std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,
+                                       double limit) const {
     double t = 0;
     if (origin.y > canopy_) {
         if (direction.y >= 0)
             return std::nullopt;
         t = (canopy_ - origin.y) / direction.y;
     }
-    const double end = direction.y < 0 ? -origin.y / direction.y : t + 100 * side_;
+    const double end = direction.y < 0 ? std::min(limit, -origin.y / direction.y) : limit;
     const double width = side_ / cells_;
     const glm::dvec3 start = origin + t * direction;
     Walk x(start.x, direction.x, width), z(start.z, direction.z, width);
     std::optional<RayHit> best;
     double entry = 0; // along the ray from `start`
     while (t + entry < end) {
-        const int tile_x = (x.cell - floor_mod(x.cell, cells_)) / cells_, tile_z = (z.cell - floor_mod(z.cell, cells_)) / cells_;
+        const int tile_x = (x.cell - floor_mod(x.cell, cells_)) / cells_,
+                  tile_z = (z.cell - floor_mod(z.cell, cells_)) / cells_;
         const double exit = std::min(x.next, z.next);
-        const double y0 = start.y + entry * direction.y, y1 = start.y + std::min(exit, 1e6) * direction.y;
+        const double y0 = start.y + entry * direction.y,
+                     y1 = start.y + std::min(exit, 1e6) * direction.y;
         for (const Item& item : cell(x.cell, z.cell)) {
             if (item.low > std::max(y0, y1) || item.high < std::min(y0, y1))
                 continue;
-            const glm::dvec3 shift((tile_x + item.shift_x) * side_, 0.0, (tile_z + item.shift_z) * side_);
+            const glm::dvec3 shift((tile_x + item.shift_x) * side_, 0.0,
+                                   (tile_z + item.shift_z) * side_);
             meet(item, start - shift, direction, best);
         }
         if (best && best->distance <= exit)

@@ -24,8 +24,12 @@ class BladeField {
 public:
     BladeField(std::span<const shared::BladeRecord> blades, double side, double canopy);
 
-    /// First blade that the ray meets above the ground. `direction` is a unit vector.
-    [[nodiscard]] std::optional<RayHit> cast(glm::dvec3 origin, glm::dvec3 direction) const;
+    /// First blade that the ray meets above the ground, up to `limit` metres away. `direction` is a
+    /// unit vector.
+    [[nodiscard]] std::optional<RayHit> cast(glm::dvec3 origin, glm::dvec3 direction,
+                                             double limit = kFar) const;
+
+    static constexpr double kFar = 1000;
 
     [[nodiscard]] double canopy() const { return canopy_; }
     [[nodiscard]] double side() const { return side_; }
@@ -39,7 +43,8 @@ private:
     };
 
     void bin(std::uint32_t blade, int segment);
-    void meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction, std::optional<RayHit>& best) const;
+    void meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction,
+              std::optional<RayHit>& best) const;
     [[nodiscard]] const std::vector<Item>& cell(int x, int z) const;
 
     double side_;

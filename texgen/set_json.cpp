@@ -20,7 +20,9 @@ double decimal(float value) {
     return out;
 }
 
-ordered_json rgb(const shared::vec4& c) { return {decimal(c.x), decimal(c.y), decimal(c.z)}; }
+ordered_json rgb(const shared::vec4& c) {
+    return {decimal(c.x), decimal(c.y), decimal(c.z)};
+}
 
 ordered_json look(const shared::GrassAppearance& a) {
     return {{"root", rgb(a.root)},
@@ -51,13 +53,14 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                          {"appearance", look(set.appearance)}};
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
-        root["levels"].push_back({{"size", level.layers.width},
-                                  {"texel_m", decimal(set.side_m / static_cast<float>(level.layers.width))},
-                                  {"layer_count", level.layer_count},
-                                  {"slice_count", level.slice_count},
-                                  {"slice_rows", level.slices.height},
-                                  {"layers", grass::layers_file(static_cast<int>(k))},
-                                  {"slices", grass::slices_file(static_cast<int>(k))}});
+        root["levels"].push_back(
+            {{"size", level.layers.width},
+             {"texel_m", decimal(set.side_m / static_cast<float>(level.layers.width))},
+             {"layer_count", level.layer_count},
+             {"slice_count", level.slice_count},
+             {"slice_rows", level.slices.height},
+             {"layers", grass::layers_file(static_cast<int>(k))},
+             {"slices", grass::slices_file(static_cast<int>(k))}});
     }
     root["far"] = ordered_json::array();
     for (const grass::FarRow& row : set.far)

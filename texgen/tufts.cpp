@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where blades stand (J2): single blades uniform by area, tufts around Poisson-disk centres. What stands in the border is
-// drawn once; each variant fills its own interior with as many blades as the others.
+// Where blades stand (J2): single blades uniform by area, tufts around Poisson-disk centres. What
+// stands in the border is drawn once; each variant fills its own interior with as many blades as
+// the others.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,14 +12,17 @@
 namespace sward::texgen {
 namespace {
 
-// Streams of the counter-based random numbers; the variant's interior adds kVariantStep * (variant + 1).
+// Streams of the counter-based random numbers; the variant's interior adds kVariantStep * (variant
+// + 1).
 enum Stream : std::uint64_t { kSingle = 1, kTuftCentre, kTuftSize, kTuftBlade, kVariantStep = 64 };
 
 struct Centre {
     double x, z;
 };
 
-double wrap_distance(double d, double side) { return d - side * std::round(d / side); }
+double wrap_distance(double d, double side) {
+    return d - side * std::round(d / side);
+}
 
 double edge_distance(double x, double z, double side) {
     return std::min(std::min(x, side - x), std::min(z, side - z));
@@ -31,9 +35,11 @@ public:
           border_(border_width(preset)) {}
 
     Roots run() {
-        const auto total = static_cast<std::size_t>(std::llround(preset_.density_per_m2 * side_ * side_));
+        const auto total =
+            static_cast<std::size_t>(std::llround(preset_.density_per_m2 * side_ * side_));
         const double per_tuft = (preset_.tuft_blades.low + preset_.tuft_blades.high) / 2;
-        tufted_ = static_cast<std::size_t>(std::llround(static_cast<double>(total) * preset_.tuft_share));
+        tufted_ =
+            static_cast<std::size_t>(std::llround(static_cast<double>(total) * preset_.tuft_share));
         tufts_ = static_cast<std::size_t>(std::llround(static_cast<double>(tufted_) / per_tuft));
         if (tufts_ == 0)
             tufted_ = 0;
@@ -45,12 +51,15 @@ public:
     }
 
 private:
-    double unit(std::uint64_t stream, std::uint64_t index) const { return base::hash_unit(seed_, stream, index); }
+    double unit(std::uint64_t stream, std::uint64_t index) const {
+        return base::hash_unit(seed_, stream, index);
+    }
     static std::uint64_t own(std::uint64_t variant) { return kVariantStep * (variant + 1); }
 
     void single_blades(std::size_t count, Roots& roots) {
         for (std::size_t i = 0; i < count; ++i) {
-            const Sprout s{unit(kSingle, 2 * i) * side_, unit(kSingle, 2 * i + 1) * side_, next_id_++};
+            const Sprout s{unit(kSingle, 2 * i) * side_, unit(kSingle, 2 * i + 1) * side_,
+                           next_id_++};
             if (edge_distance(s.x, s.z, side_) < border_)
                 roots.border.push_back(s);
         }
@@ -75,29 +84,35 @@ private:
         for (const Centre& c : all)
             if (edge_distance(c.x, c.z, side_) < rim)
                 shared_centres.push_back(c);
-        const double share = static_cast<double>(shared_centres.size()) / static_cast<double>(tufts_);
-        const auto rim_blades = static_cast<std::size_t>(std::llround(static_cast<double>(tufted_) * share));
+        const double share =
+            static_cast<double>(shared_centres.size()) / static_cast<double>(tufts_);
+        const auto rim_blades =
+            static_cast<std::size_t>(std::llround(static_cast<double>(tufted_) * share));
         grow_tufts(kTuftSize, shared_centres, rim_blades, roots.border);
         for (std::size_t v = 0; v < roots.interior.size(); ++v) {
             std::vector<Centre> centres = shared_centres;
             throw_darts(own(v) + kTuftCentre, tufts_ - shared_centres.size(), rim, centres);
-            centres.erase(centres.begin(), centres.begin() + static_cast<std::ptrdiff_t>(shared_centres.size()));
+            centres.erase(centres.begin(),
+                          centres.begin() + static_cast<std::ptrdiff_t>(shared_centres.size()));
             grow_tufts(own(v) + kTuftSize, centres, tufted_ - rim_blades, roots.interior[v]);
         }
     }
 
-    /// Appends `count` centres inside the rim by dart throwing; the disk shrinks while darts find no place, so that the
-    /// count is met exactly.
-    void throw_darts(std::uint64_t stream, std::size_t count, double rim, std::vector<Centre>& centres) const {
+    /// Appends `count` centres inside the rim by dart throwing; the disk shrinks while darts find
+    /// no place, so that the count is met exactly.
+    void throw_darts(std::uint64_t stream, std::size_t count, double rim,
+                     std::vector<Centre>& centres) const {
         double disk = std::sqrt(0.68 * side_ * side_ / static_cast<double>(tufts_));
         const double width = side_ - 2 * rim;
         std::uint64_t dart = 0;
         int misses = 0;
         for (std::size_t placed = 0; placed < count;) {
-            const Centre c{rim + unit(stream, 2 * dart) * width, rim + unit(stream, 2 * dart + 1) * width};
+            const Centre c{rim + unit(stream, 2 * dart) * width,
+                           rim + unit(stream, 2 * dart + 1) * width};
             ++dart;
             const bool clear = std::ranges::none_of(centres, [&](const Centre& o) {
-                return std::hypot(wrap_distance(c.x - o.x, side_), wrap_distance(c.z - o.z, side_)) < disk;
+                return std::hypot(wrap_distance(c.x - o.x, side_),
+                                  wrap_distance(c.z - o.z, side_)) < disk;
             });
             if (clear) {
                 centres.push_back(c);
@@ -116,27 +131,34 @@ private:
         std::vector<double> weight(centres.size());
         double sum = 0;
         for (std::size_t t = 0; t < centres.size(); ++t) {
-            weight[t] = std::lerp(preset_.tuft_blades.low, preset_.tuft_blades.high, unit(stream, 2 * t));
+            weight[t] =
+                std::lerp(preset_.tuft_blades.low, preset_.tuft_blades.high, unit(stream, 2 * t));
             sum += weight[t];
         }
         double running = 0;
         std::size_t grown = 0;
         for (std::size_t t = 0; t < centres.size(); ++t) {
             running += weight[t];
-            const auto until = static_cast<std::size_t>(std::llround(static_cast<double>(blades) * running / sum));
-            const double radius = std::lerp(preset_.tuft_radius_m.low, preset_.tuft_radius_m.high, unit(stream, 2 * t + 1));
+            const auto until =
+                static_cast<std::size_t>(std::llround(static_cast<double>(blades) * running / sum));
+            const double radius = std::lerp(preset_.tuft_radius_m.low, preset_.tuft_radius_m.high,
+                                            unit(stream, 2 * t + 1));
             for (; grown < until; ++grown)
-                into.push_back(tuft_blade(stream - kTuftSize + kTuftBlade, grown, centres[t], radius));
+                into.push_back(
+                    tuft_blade(stream - kTuftSize + kTuftBlade, grown, centres[t], radius));
         }
         // No centre in this part: its blades stand singly, so that the total holds.
         if (centres.empty())
             for (; grown < blades; ++grown)
-                into.push_back(tuft_blade(stream - kTuftSize + kTuftBlade, grown, {side_ / 2, side_ / 2}, 0.1 * side_));
+                into.push_back(tuft_blade(stream - kTuftSize + kTuftBlade, grown,
+                                          {side_ / 2, side_ / 2}, 0.1 * side_));
     }
 
-    Sprout tuft_blade(std::uint64_t stream, std::uint64_t index, const Centre& centre, double radius) {
+    Sprout tuft_blade(std::uint64_t stream, std::uint64_t index, const Centre& centre,
+                      double radius) {
         const double angle = unit(stream, 2 * index) * 2 * std::numbers::pi;
-        const double out = std::pow(unit(stream, 2 * index + 1), 0.7); // denser towards the centre than by area
+        const double out =
+            std::pow(unit(stream, 2 * index + 1), 0.7); // denser towards the centre than by area
         Sprout s;
         s.out_x = out * std::cos(angle);
         s.out_z = out * std::sin(angle);
@@ -159,6 +181,8 @@ private:
 
 } // namespace
 
-Roots scatter_roots(const Preset& preset) { return Scatter(preset).run(); }
+Roots scatter_roots(const Preset& preset) {
+    return Scatter(preset).run();
+}
 
 } // namespace sward::texgen

@@ -24,7 +24,9 @@ struct Deposit {
     std::uint32_t blade = 0;
     float area = 0;  ///< square metres
     float along = 0; ///< v there
-    bool operator<(const Deposit& o) const { return std::tie(voxel, blade) < std::tie(o.voxel, o.blade); }
+    bool operator<(const Deposit& o) const {
+        return std::tie(voxel, blade) < std::tie(o.voxel, o.blade);
+    }
 };
 
 constexpr int kPerVoxel = 4; // samples a voxel width, along and across a blade
@@ -34,7 +36,8 @@ class Sampler {
 public:
     Sampler(double voxel_m, int cells) : voxel_m_(voxel_m), cells_(cells) {}
 
-    void add(const shared::BladeRecord& blade, std::uint32_t number, std::vector<Deposit>& out) const {
+    void add(const shared::BladeRecord& blade, std::uint32_t number,
+             std::vector<Deposit>& out) const {
         std::vector<Deposit> own;
         const double length = blade.shape.y;
         const int steps = std::max(8, static_cast<int>(std::ceil(length / voxel_m_ * kPerVoxel)));
@@ -48,7 +51,8 @@ public:
             const int wide = std::max(1, static_cast<int>(std::ceil(width / voxel_m_ * kPerVoxel)));
             for (int j = 0; j < wide; ++j) {
                 const glm::dvec3 p = centre + across * (width * ((j + 0.5) / wide - 0.5));
-                own.push_back({key(p), number, static_cast<float>(speed / steps * width / wide), static_cast<float>(v)});
+                own.push_back({key(p), number, static_cast<float>(speed / steps * width / wide),
+                               static_cast<float>(v)});
             }
         }
         std::ranges::stable_sort(own, {}, &Deposit::voxel);
@@ -85,7 +89,8 @@ struct Grids {
     [[nodiscard]] openvdb::GridPtrVec all() const { return {density, tangent, rank, seed}; }
 };
 
-void fill(Grids& grids, const std::vector<Deposit>& deposits, std::span<const shared::BladeRecord> blades, double voxel_m) {
+void fill(Grids& grids, const std::vector<Deposit>& deposits,
+          std::span<const shared::BladeRecord> blades, double voxel_m) {
     auto density = grids.density->getAccessor();
     auto tangent = grids.tangent->getAccessor();
     auto rank = grids.rank->getAccessor();
@@ -100,8 +105,10 @@ void fill(Grids& grids, const std::vector<Deposit>& deposits, std::span<const sh
                 most = deposits[i];
         }
         const shared::BladeRecord& blade = blades[most.blade];
-        const shared::vec3 t = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), most.along);
-        const openvdb::Coord at(static_cast<int>(voxel & 0xFFFF), static_cast<int>(voxel >> 32), static_cast<int>(voxel >> 16 & 0xFFFF));
+        const shared::vec3 t =
+            shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), most.along);
+        const openvdb::Coord at(static_cast<int>(voxel & 0xFFFF), static_cast<int>(voxel >> 32),
+                                static_cast<int>(voxel >> 16 & 0xFFFF));
         density.setValue(at, std::min(1.0f, area / static_cast<float>(voxel_m * voxel_m)));
         tangent.setValue(at, openvdb::Vec3f(t.x, t.y, t.z));
         rank.setValue(at, blade.root.z);
@@ -118,7 +125,8 @@ void label(const Grids& grids, const grass::GrassSet& set, double voxel_m) {
     grids.tangent->setVectorType(openvdb::VEC_CONTRAVARIANT_RELATIVE);
     for (const openvdb::GridBase::Ptr& grid : grids.all()) {
         const auto transform = openvdb::math::Transform::createLinearTransform(voxel_m);
-        transform->postTranslate(openvdb::Vec3d(voxel_m / 2)); // a voxel's value stands at its middle
+        transform->postTranslate(
+            openvdb::Vec3d(voxel_m / 2)); // a voxel's value stands at its middle
         grid->setTransform(transform);
         grid->setSaveFloatAsHalf(true);
         grid->setCreator("Sward texgen");
@@ -127,8 +135,8 @@ void label(const Grids& grids, const grass::GrassSet& set, double voxel_m) {
     }
 }
 
-/// OpenVDB's writer onto a stream of our own, with the offsets that let tools read grid by grid (io::Stream leaves
-/// them out, io::File writes past full disks).
+/// OpenVDB's writer onto a stream of our own, with the offsets that let tools read grid by grid
+/// (io::Stream leaves them out, io::File writes past full disks).
 class StreamArchive : public openvdb::io::Archive {
 public:
     std::string bytes(const openvdb::GridPtrVec& grids) const {
@@ -140,7 +148,8 @@ public:
     }
 
 private:
-    /// The file's random unique tag becomes one of its content, so that the same set gives the same bytes.
+    /// The file's random unique tag becomes one of its content, so that the same set gives the same
+    /// bytes.
     void name_by_content(std::string& text) const {
         const std::string tag = getUniqueTag();
         const std::size_t at = text.substr(0, 256).find(tag);
@@ -176,7 +185,8 @@ std::vector<std::byte> encode_volume(const grass::GrassSet& set) {
 
 VolumeInfo inspect_volume(const std::vector<std::byte>& bytes) {
     openvdb::initialize();
-    std::istringstream stream(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::ios::binary);
+    std::istringstream stream(
+        std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), std::ios::binary);
     VolumeInfo info;
     const openvdb::GridPtrVecPtr grids = openvdb::io::Stream(stream, false).getGrids();
     for (const openvdb::GridBase::Ptr& grid : *grids) {

@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 /// Says at verbosity -v how long a step took.
 class StepTimer {
 public:
-    explicit StepTimer(std::string name) : name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
+    explicit StepTimer(std::string name)
+        : name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
     ~StepTimer() {
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
         base::log_debug(fmt::format("{}: {:.2f} s", name_, took.count()));
@@ -50,14 +51,18 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     std::vector<Part> parts; // the longest work first, so that two workers end together
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
-        parts.push_back({grass::layers_file(static_cast<int>(k)),
-                         [&level, &options] { return grass::encode_ktx2(level.layers, options.compression); }});
+        parts.push_back({grass::layers_file(static_cast<int>(k)), [&level, &options] {
+                             return grass::encode_ktx2(level.layers, options.compression);
+                         }});
         if (k == 0 && options.volume)
             parts.push_back({grass::kVolumeFile, [&set] { return encode_volume(set); }});
-        parts.push_back({grass::slices_file(static_cast<int>(k)),
-                         [&level, &options] { return grass::encode_ktx2(level.slices, options.compression); }});
+        parts.push_back({grass::slices_file(static_cast<int>(k)), [&level, &options] {
+                             return grass::encode_ktx2(level.slices, options.compression);
+                         }});
     }
-    parts.push_back({grass::kBladesFile, [&set] { return grass::encode_blades(set.blades, set.variant_begin, set.side_m); }});
+    parts.push_back({grass::kBladesFile, [&set] {
+                         return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
+                     }});
     return parts;
 }
 
@@ -78,9 +83,11 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     set.seed = static_cast<std::uint64_t>(preset.seed);
     set.side_m = static_cast<float>(preset.side_m);
     set.variants = patch.variants();
-    set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) / (preset.side_m * preset.side_m));
+    set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
+                                            (preset.side_m * preset.side_m));
     set.appearance = appearance(preset);
-    // The numbers a reader gets are floats; the textures are drawn for those, not for their doubles.
+    // The numbers a reader gets are floats; the textures are drawn for those, not for their
+    // doubles.
     set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
     set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
     std::size_t images = 0;
@@ -89,7 +96,8 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     {
         const StepTimer timer("layers and slices");
         base::Progress progress("layers and slices", images);
-        const BakeFrame frame{preset, patch, set.canopy_m, set.offset_range_m, options.threads, &progress};
+        const BakeFrame frame{preset,          patch,    set.canopy_m, set.offset_range_m,
+                              options.threads, &progress};
         for (int k = 0; k < preset.levels; ++k)
             set.levels.push_back(bake_level(frame, k));
     }
@@ -108,16 +116,19 @@ void require_set_place(const fs::path& directory) {
     if (!fs::exists(status))
         return base::require_writable(directory);
     if (!fs::is_directory(status))
-        throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file", "a directory for the set, or none yet");
+        throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file",
+                                "a directory for the set, or none yet");
     // The directory that stands there is removed: never one that holds something else.
     if (!fs::is_empty(directory, error) && !fs::is_regular_file(directory / grass::kSetJson, error))
-        throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a directory with other files",
+        throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
+                                "a directory with other files",
                                 "an earlier grass set, an empty directory, or none yet");
     fs::path beside = directory; // the new set is written beside the old one
     base::require_writable(beside += ".new");
 }
 
-void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path& directory, const BakeOptions& options) {
+void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path& directory,
+               const BakeOptions& options) {
     require_set_place(directory);
     base::PendingOutput pending(directory, base::PendingOutput::Kind::kDirectory);
     const std::vector<Part> parts = parts_of(set, options);
@@ -136,16 +147,18 @@ void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path&
         const StepTimer timer("preview");
         const fs::path path = pending.path() / grass::kPreviewFile;
         write_preview(set, path, options.threads);
-        files.push_back(entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
+        files.push_back(
+            entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
     }
     base::write_file_atomic(pending.path() / grass::kSetJson, set_json(set, files));
     pending.commit();
     std::uint64_t bytes = 0;
     for (const FileEntry& file : files)
         bytes += file.bytes;
-    base::log_info(fmt::format("{}: {} blades in {} variants of {} m, canopy {:.3f} m, {} files, {:.1f} MiB", directory.string(),
-                               set.blades.size(), set.variants, preset.side_m, set.canopy_m, files.size() + 1,
-                               static_cast<double>(bytes) / (1 << 20)));
+    base::log_info(
+        fmt::format("{}: {} blades in {} variants of {} m, canopy {:.3f} m, {} files, {:.1f} MiB",
+                    directory.string(), set.blades.size(), set.variants, preset.side_m,
+                    set.canopy_m, files.size() + 1, static_cast<double>(bytes) / (1 << 20)));
 }
 
 } // namespace sward::texgen

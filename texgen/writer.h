@@ -19,10 +19,10 @@ struct BakeOptions {
 /// Everything the renderer reads, in memory. Takes about 1.4 times the arrays' size.
 [[nodiscard]] grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options);
 
-/// Writes the set's directory whole or not at all. An existing set there is replaced; any other directory with something
-/// in it is refused. Throws base::Error(kIo).
-void write_set(const grass::GrassSet& set, const Preset& preset, const std::filesystem::path& directory,
-               const BakeOptions& options);
+/// Writes the set's directory whole or not at all. An existing set there is replaced; any other
+/// directory with something in it is refused. Throws base::Error(kIo).
+void write_set(const grass::GrassSet& set, const Preset& preset,
+               const std::filesystem::path& directory, const BakeOptions& options);
 
 /// Throws base::Error(kIo) unless write_set could put a set there: for a check before long work.
 void require_set_place(const std::filesystem::path& directory);

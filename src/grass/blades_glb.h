@@ -17,14 +17,17 @@ struct BladeList {
     std::vector<std::uint32_t> variant_begin;
 };
 
-/// One mesh of POINTS a variant: POSITION is the root (y 0); application attributes, floats in metres and radians:
-/// _HEIGHT (of the tip), _WIDTH (full, at the root), _LENGTH (of the curve), _RANK, _SEED, _V1, _V2 (relative to the
-/// root), _STIFFNESS, _FACING, _DROOP. Nodes stand side by side along x.
+/// One mesh of POINTS a variant: POSITION is the root (y 0); application attributes, floats in
+/// metres and radians: _HEIGHT (of the tip), _WIDTH (full, at the root), _LENGTH (of the curve),
+/// _RANK, _SEED, _V1, _V2 (relative to the root), _STIFFNESS, _FACING, _DROOP. Nodes stand side by
+/// side along x.
 [[nodiscard]] std::vector<std::byte> encode_blades(std::span<const shared::BladeRecord> blades,
-                                                   std::span<const std::uint32_t> variant_begin, float side_m);
+                                                   std::span<const std::uint32_t> variant_begin,
+                                                   float side_m);
 
-/// Equal to what was encoded. `name` is for messages. Throws base::Error: kBadInput malformed, outside the patch or not
-/// finite, kOverLimit more than 2^24 blades or JSON above its limits.
-[[nodiscard]] BladeList decode_blades(std::span<const std::byte> bytes, const std::filesystem::path& name, float side_m);
+/// Equal to what was encoded. `name` is for messages. Throws base::Error: kBadInput malformed,
+/// outside the patch or not finite, kOverLimit more than 2^24 blades or JSON above its limits.
+[[nodiscard]] BladeList decode_blades(std::span<const std::byte> bytes,
+                                      const std::filesystem::path& name, float side_m);
 
 } // namespace sward::grass

@@ -20,7 +20,8 @@ namespace {
 using base::ExitCode;
 static_assert(std::endian::native == std::endian::little, "KTX2 is little-endian; so are we");
 
-constexpr std::array<unsigned char, 12> kIdentifier = {0xAB, 'K', 'T', 'X', ' ', '2', '0', 0xBB, '\r', '\n', 0x1A, '\n'};
+constexpr std::array<unsigned char, 12> kIdentifier = {0xAB, 'K',  'T',  'X',  ' ',  '2',
+                                                       '0',  0xBB, '\r', '\n', 0x1A, '\n'};
 constexpr std::uint32_t kFormatRgba8Unorm = 37; // VK_FORMAT_R8G8B8A8_UNORM
 constexpr std::uint32_t kSchemeZstd = 2;
 constexpr std::size_t kHeaderBytes = 80; // identifier, header and index
@@ -35,35 +36,38 @@ struct Level {
     std::uint64_t offset, bytes, unpacked;
 };
 
-template <typename T> void put(std::vector<std::byte>& out, T value) {
+template<typename T> void put(std::vector<std::byte>& out, T value) {
     out.resize(out.size() + sizeof(T));
     std::memcpy(out.data() + out.size() - sizeof(T), &value, sizeof(T));
 }
 
-template <typename T> T get(std::span<const std::byte> bytes, std::size_t at) {
+template<typename T> T get(std::span<const std::byte> bytes, std::size_t at) {
     T value;
     std::memcpy(&value, bytes.data() + at, sizeof(T));
     return value;
 }
 
-/// Basic data format descriptor of RGBA8 UNORM, linear, Rec. 709 primaries (Khronos Data Format 1.3).
+/// Basic data format descriptor of RGBA8 UNORM, linear, Rec. 709 primaries (Khronos Data
+/// Format 1.3).
 std::vector<std::byte> data_format_descriptor() {
     constexpr std::uint16_t kBlockBytes = 24 + 4 * 16;
     std::vector<std::byte> dfd;
     put<std::uint32_t>(dfd, 4 + kBlockBytes);
-    put<std::uint32_t>(dfd, 0);              // vendor Khronos, descriptor type basic
-    put<std::uint16_t>(dfd, 2);              // version 1.3
+    put<std::uint32_t>(dfd, 0); // vendor Khronos, descriptor type basic
+    put<std::uint16_t>(dfd, 2); // version 1.3
     put<std::uint16_t>(dfd, kBlockBytes);
-    put<std::uint32_t>(dfd, 0x00010101); // model RGBSDA, primaries BT.709, transfer linear, straight alpha
+    put<std::uint32_t>(
+        dfd, 0x00010101);       // model RGBSDA, primaries BT.709, transfer linear, straight alpha
     put<std::uint32_t>(dfd, 0); // texel block 1 x 1 x 1 x 1
     put<std::uint64_t>(dfd, 4); // bytes of plane 0, unpacked; no other planes
     for (int channel = 0; channel < 4; ++channel) {
-        put<std::uint16_t>(dfd, static_cast<std::uint16_t>(channel * 8));    // bit offset
-        put<std::uint8_t>(dfd, 7);                                           // bits - 1
-        put<std::uint8_t>(dfd, static_cast<std::uint8_t>(channel == 3 ? 15 : channel)); // R, G, B, A
-        put<std::uint32_t>(dfd, 0);                                          // sample position
-        put<std::uint32_t>(dfd, 0);                                          // value of 0
-        put<std::uint32_t>(dfd, 255);                                        // value of 1
+        put<std::uint16_t>(dfd, static_cast<std::uint16_t>(channel * 8)); // bit offset
+        put<std::uint8_t>(dfd, 7);                                        // bits - 1
+        put<std::uint8_t>(dfd,
+                          static_cast<std::uint8_t>(channel == 3 ? 15 : channel)); // R, G, B, A
+        put<std::uint32_t>(dfd, 0);   // sample position
+        put<std::uint32_t>(dfd, 0);   // value of 0
+        put<std::uint32_t>(dfd, 255); // value of 1
     }
     return dfd;
 }
@@ -79,11 +83,14 @@ std::vector<std::byte> key_values() {
 }
 
 std::vector<std::byte> pack(const std::vector<std::uint8_t>& raw, int compression) {
-    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
+    const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                       ZSTD_freeCCtx);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression);
-    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1); // a flipped byte must not become another picture
+    ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag,
+                           1); // a flipped byte must not become another picture
     std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
-    const std::size_t size = ZSTD_compress2(context.get(), packed.data(), packed.size(), raw.data(), raw.size());
+    const std::size_t size =
+        ZSTD_compress2(context.get(), packed.data(), packed.size(), raw.data(), raw.size());
     if (ZSTD_isError(size))
         throw base::Error(ExitCode::kFailure, fmt::format("zstd: {}", ZSTD_getErrorName(size)));
     packed.resize(size);
@@ -93,15 +100,21 @@ std::vector<std::byte> pack(const std::vector<std::uint8_t>& raw, int compressio
 /// Reads a file of which nothing is believed.
 class Decoder {
 public:
-    Decoder(std::span<const std::byte> bytes, const std::filesystem::path& name) : bytes_(bytes), name_(name) {}
+    Decoder(std::span<const std::byte> bytes, const std::filesystem::path& name)
+        : bytes_(bytes), name_(name) {}
 
     TextureArray run() {
-        if (bytes_.size() < kHeaderBytes || std::memcmp(bytes_.data(), kIdentifier.data(), kIdentifier.size()) != 0)
-            refuse(ExitCode::kBadInput, "file", fmt::format("{} bytes of something else", bytes_.size()), "KTX 2.0");
+        if (bytes_.size() < kHeaderBytes ||
+            std::memcmp(bytes_.data(), kIdentifier.data(), kIdentifier.size()) != 0)
+            refuse(ExitCode::kBadInput, "file",
+                   fmt::format("{} bytes of something else", bytes_.size()), "KTX 2.0");
         std::memcpy(&header_, bytes_.data() + kIdentifier.size(), sizeof header_);
         check_format();
         check_size();
-        TextureArray array{static_cast<int>(header_.width), static_cast<int>(header_.height), static_cast<int>(header_.layers), {}};
+        TextureArray array{static_cast<int>(header_.width),
+                           static_cast<int>(header_.height),
+                           static_cast<int>(header_.layers),
+                           {}};
         const std::vector<Level> levels = check_levels(array);
         for (const Level& level : levels)
             array.mips.push_back(unpack(level));
@@ -109,17 +122,22 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(ExitCode code, std::string_view what, const std::string& found, const std::string& expected) const {
+    [[noreturn]] void refuse(ExitCode code, std::string_view what, const std::string& found,
+                             const std::string& expected) const {
         throw base::input_error(code, name_, 0, what, found, expected);
     }
 
     void check_format() const {
         if (header_.format != kFormatRgba8Unorm || header_.type_size != 1)
-            refuse(ExitCode::kBadInput, "format", std::to_string(header_.format), "37 (RGBA8 UNORM)");
+            refuse(ExitCode::kBadInput, "format", std::to_string(header_.format),
+                   "37 (RGBA8 UNORM)");
         if (header_.scheme != kSchemeZstd)
-            refuse(ExitCode::kBadInput, "supercompression", std::to_string(header_.scheme), "2 (Zstandard)");
+            refuse(ExitCode::kBadInput, "supercompression", std::to_string(header_.scheme),
+                   "2 (Zstandard)");
         if (header_.depth != 0 || header_.faces != 1 || header_.layers == 0)
-            refuse(ExitCode::kBadInput, "shape", fmt::format("depth {}, faces {}, layers {}", header_.depth, header_.faces, header_.layers),
+            refuse(ExitCode::kBadInput, "shape",
+                   fmt::format("depth {}, faces {}, layers {}", header_.depth, header_.faces,
+                               header_.layers),
                    "a 2D array");
         const std::vector<std::byte> dfd = data_format_descriptor();
         const std::uint64_t end = std::uint64_t{header_.dfd_offset} + header_.dfd_bytes;
@@ -127,21 +145,28 @@ private:
             std::memcmp(bytes_.data() + header_.dfd_offset, dfd.data(), dfd.size()) != 0)
             refuse(ExitCode::kBadInput, "data format descriptor", "another", "linear RGBA8 UNORM");
         if (std::uint64_t{header_.kvd_offset} + header_.kvd_bytes > bytes_.size())
-            refuse(ExitCode::kBadInput, "key/value data", "an end beyond the file", "an end inside");
+            refuse(ExitCode::kBadInput, "key/value data", "an end beyond the file",
+                   "an end inside");
         constexpr std::size_t kGlobalData = kHeaderBytes - 16;
-        if (get<std::uint64_t>(bytes_, kGlobalData) != 0 || get<std::uint64_t>(bytes_, kGlobalData + 8) != 0)
+        if (get<std::uint64_t>(bytes_, kGlobalData) != 0 ||
+            get<std::uint64_t>(bytes_, kGlobalData + 8) != 0)
             refuse(ExitCode::kBadInput, "supercompression global data", "some", "none");
     }
 
     void check_size() const {
         if (header_.width == 0 || header_.height == 0)
-            refuse(ExitCode::kBadInput, "size", fmt::format("{} x {}", header_.width, header_.height), "at least 1 x 1");
-        if (header_.width > kMaxSide || header_.height > kMaxSide || header_.layers > kMaxArrayLayers)
-            refuse(ExitCode::kOverLimit, "size", fmt::format("{} x {} x {}", header_.width, header_.height, header_.layers),
+            refuse(ExitCode::kBadInput, "size",
+                   fmt::format("{} x {}", header_.width, header_.height), "at least 1 x 1");
+        if (header_.width > kMaxSide || header_.height > kMaxSide ||
+            header_.layers > kMaxArrayLayers)
+            refuse(ExitCode::kOverLimit, "size",
+                   fmt::format("{} x {} x {}", header_.width, header_.height, header_.layers),
                    fmt::format("at most {0} x {0} x {1}", kMaxSide, kMaxArrayLayers));
-        const auto most = static_cast<std::uint32_t>(std::bit_width(std::max(header_.width, header_.height)));
+        const auto most =
+            static_cast<std::uint32_t>(std::bit_width(std::max(header_.width, header_.height)));
         if (header_.levels == 0 || header_.levels > most)
-            refuse(ExitCode::kBadInput, "mips", std::to_string(header_.levels), fmt::format("1 to {}", most));
+            refuse(ExitCode::kBadInput, "mips", std::to_string(header_.levels),
+                   fmt::format("1 to {}", most));
         if (bytes_.size() < kHeaderBytes + header_.levels * kLevelBytes)
             refuse(ExitCode::kBadInput, "level index", "an end beyond the file", "an end inside");
     }
@@ -151,17 +176,21 @@ private:
         std::uint64_t total = 0;
         for (std::uint32_t m = 0; m < header_.levels; ++m) {
             const std::size_t at = kHeaderBytes + m * kLevelBytes;
-            const Level level{get<std::uint64_t>(bytes_, at), get<std::uint64_t>(bytes_, at + 8), get<std::uint64_t>(bytes_, at + 16)};
+            const Level level{get<std::uint64_t>(bytes_, at), get<std::uint64_t>(bytes_, at + 8),
+                              get<std::uint64_t>(bytes_, at + 16)};
             const std::uint64_t expected = mip_bytes(array, static_cast<int>(m));
             if (level.unpacked != expected)
-                refuse(ExitCode::kBadInput, fmt::format("mip {}", m), fmt::format("{} bytes", level.unpacked), std::to_string(expected));
+                refuse(ExitCode::kBadInput, fmt::format("mip {}", m),
+                       fmt::format("{} bytes", level.unpacked), std::to_string(expected));
             if (level.offset > bytes_.size() || level.bytes > bytes_.size() - level.offset)
-                refuse(ExitCode::kBadInput, fmt::format("mip {}", m), "an end beyond the file", "an end inside");
+                refuse(ExitCode::kBadInput, fmt::format("mip {}", m), "an end beyond the file",
+                       "an end inside");
             total += expected;
             levels.push_back(level);
         }
         if (total > kMaxArrayBytes)
-            refuse(ExitCode::kOverLimit, "array", fmt::format("{} bytes", total), fmt::format("at most {}", kMaxArrayBytes));
+            refuse(ExitCode::kOverLimit, "array", fmt::format("{} bytes", total),
+                   fmt::format("at most {}", kMaxArrayBytes));
         return levels;
     }
 
@@ -170,11 +199,13 @@ private:
         // The frame states its size: a bomb or a cut is refused before memory is taken.
         if (ZSTD_getFrameContentSize(data, level.bytes) != level.unpacked ||
             ZSTD_findFrameCompressedSize(data, level.bytes) != level.bytes)
-            refuse(ExitCode::kBadInput, "zstd frame", "another size", fmt::format("{} bytes from {}", level.unpacked, level.bytes));
+            refuse(ExitCode::kBadInput, "zstd frame", "another size",
+                   fmt::format("{} bytes from {}", level.unpacked, level.bytes));
         std::vector<std::uint8_t> raw(level.unpacked);
         const std::size_t size = ZSTD_decompress(raw.data(), raw.size(), data, level.bytes);
         if (size != raw.size())
-            refuse(ExitCode::kBadInput, "zstd frame", ZSTD_isError(size) ? ZSTD_getErrorName(size) : "fewer bytes", "whole data");
+            refuse(ExitCode::kBadInput, "zstd frame",
+                   ZSTD_isError(size) ? ZSTD_getErrorName(size) : "fewer bytes", "whole data");
         return raw;
     }
 
@@ -186,7 +217,8 @@ private:
 } // namespace
 
 std::uint64_t mip_bytes(const TextureArray& array, int mip) {
-    return static_cast<std::uint64_t>(std::max(1, array.width >> mip)) * static_cast<std::uint64_t>(std::max(1, array.height >> mip)) *
+    return static_cast<std::uint64_t>(std::max(1, array.width >> mip)) *
+           static_cast<std::uint64_t>(std::max(1, array.height >> mip)) *
            static_cast<std::uint64_t>(array.layers) * 4;
 }
 
@@ -198,13 +230,17 @@ std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
     std::vector<std::byte> out;
     for (const unsigned char c : kIdentifier)
         out.push_back(static_cast<std::byte>(c));
-    put(out, Header{kFormatRgba8Unorm, 1, static_cast<std::uint32_t>(array.width), static_cast<std::uint32_t>(array.height), 0,
-                    static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count), kSchemeZstd,
-                    static_cast<std::uint32_t>(dfd_offset), static_cast<std::uint32_t>(dfd.size()),
-                    static_cast<std::uint32_t>(dfd_offset + dfd.size()), static_cast<std::uint32_t>(kvd.size())});
+    put(out, Header{kFormatRgba8Unorm, 1, static_cast<std::uint32_t>(array.width),
+                    static_cast<std::uint32_t>(array.height), 0,
+                    static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count),
+                    kSchemeZstd, static_cast<std::uint32_t>(dfd_offset),
+                    static_cast<std::uint32_t>(dfd.size()),
+                    static_cast<std::uint32_t>(dfd_offset + dfd.size()),
+                    static_cast<std::uint32_t>(kvd.size())});
     put<std::uint64_t>(out, 0); // no supercompression global data
     put<std::uint64_t>(out, 0);
-    // The index runs from the largest mip, the data from the smallest (a reader can show a small one first).
+    // The index runs from the largest mip, the data from the smallest (a reader can show a small
+    // one first).
     std::vector<std::vector<std::byte>> packed(count);
     std::vector<Level> levels(count);
     std::uint64_t offset = dfd_offset + dfd.size() + kvd.size();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// KTX 2.0, the subset a grass set needs: RGBA8 UNORM 2D arrays with mips, Zstandard supercompression (scheme 2).
+// KTX 2.0, the subset a grass set needs: RGBA8 UNORM 2D arrays with mips, Zstandard
+// supercompression (scheme 2).
 #pragma once
 
 #include <cstddef>
@@ -19,11 +20,13 @@ inline constexpr std::uint64_t kMaxArrayBytes = std::uint64_t{1} << 30;
 /// Bytes of mip `mip`: max(1, width >> mip) x max(1, height >> mip) x layers texels.
 [[nodiscard]] std::uint64_t mip_bytes(const TextureArray& array, int mip);
 
-/// The file's bytes. `compression` is zstd's level, 1 fast .. 19 small. The array must be well formed.
+/// The file's bytes. `compression` is zstd's level, 1 fast .. 19 small. The array must be well
+/// formed.
 [[nodiscard]] std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression);
 
-/// Reads a hostile file; `name` is for messages. Throws base::Error: kBadInput malformed or another format,
-/// kOverLimit above the limits (before memory is taken).
-[[nodiscard]] TextureArray decode_ktx2(std::span<const std::byte> bytes, const std::filesystem::path& name);
+/// Reads a hostile file; `name` is for messages. Throws base::Error: kBadInput malformed or another
+/// format, kOverLimit above the limits (before memory is taken).
+[[nodiscard]] TextureArray decode_ktx2(std::span<const std::byte> bytes,
+                                       const std::filesystem::path& name);
 
 } // namespace sward::grass

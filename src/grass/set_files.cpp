@@ -12,7 +12,11 @@ std::string level_file(const char* stem, int level) {
 
 } // namespace
 
-std::string layers_file(int level) { return level_file("layers", level); }
-std::string slices_file(int level) { return level_file("slices", level); }
+std::string layers_file(int level) {
+    return level_file("layers", level);
+}
+std::string slices_file(int level) {
+    return level_file("slices", level);
+}
 
 } // namespace sward::grass

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxSetBytes = std::uint64_t{2} << 30; // all arrays unpacked
-constexpr int kMaxImages = 256;                               // layers, or slices an axis
+constexpr int kMaxImages = 256;                                // layers, or slices an axis
 constexpr std::size_t kMaxFarRows = 256;
 
 /// set.json with every access checked.
@@ -36,10 +36,12 @@ public:
             refuse("JSON", "something else", "a grass set's description");
     }
 
-    [[noreturn]] void refuse(std::string_view what, const std::string& found, const std::string& expected) const {
+    [[noreturn]] void refuse(std::string_view what, const std::string& found,
+                             const std::string& expected) const {
         throw base::input_error(ExitCode::kBadInput, path_, 0, what, found, expected);
     }
-    [[noreturn]] void over(std::string_view what, const std::string& found, const std::string& expected) const {
+    [[noreturn]] void over(std::string_view what, const std::string& found,
+                           const std::string& expected) const {
         throw base::input_error(ExitCode::kOverLimit, path_, 0, what, found, expected);
     }
     const json& root() const { return root_; }
@@ -53,7 +55,8 @@ public:
         const json& value = at(object, key);
         const double v = value.is_number() ? value.get<double>() : std::nan("");
         if (!(v >= low && v <= high))
-            refuse(key, base::printable(value.dump()), fmt::format("a number from {} to {}", low, high));
+            refuse(key, base::printable(value.dump()),
+                   fmt::format("a number from {} to {}", low, high));
         return v;
     }
     float real(const json& object, const char* key, double low, double high) const {
@@ -71,10 +74,12 @@ public:
             refuse(key, base::printable(value.dump()), "a short text");
         return value.get<std::string>();
     }
-    const json& array(const json& object, const char* key, std::size_t low, std::size_t high) const {
+    const json& array(const json& object, const char* key, std::size_t low,
+                      std::size_t high) const {
         const json& value = at(object, key);
         if (!value.is_array() || value.size() < low || value.size() > high)
-            refuse(key, value.is_array() ? fmt::format("{} entries", value.size()) : "no list", fmt::format("{} to {} entries", low, high));
+            refuse(key, value.is_array() ? fmt::format("{} entries", value.size()) : "no list",
+                   fmt::format("{} to {} entries", low, high));
         return value;
     }
     shared::vec4 colour(const json& object, const char* key, float a) const {
@@ -105,17 +110,21 @@ private:
 };
 
 /// A file of the set, whole and as its writer left it, or an error.
-std::vector<std::byte> verified_file(const SetJson& set, const fs::path& directory, const std::string& name) {
+std::vector<std::byte> verified_file(const SetJson& set, const fs::path& directory,
+                                     const std::string& name) {
     const json& entry = set.at(set.at(set.root(), "files"), name.c_str());
-    const auto size = static_cast<std::uint64_t>(set.number(entry, "bytes", 0, static_cast<double>(kMaxFileBytes)));
+    const auto size = static_cast<std::uint64_t>(
+        set.number(entry, "bytes", 0, static_cast<double>(kMaxFileBytes)));
     const std::string expected = set.text(entry, "sha256");
     std::vector<std::byte> bytes = base::read_file(directory / name, kMaxFileBytes);
     if (bytes.size() != size)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size", fmt::format("{} bytes", bytes.size()),
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size",
+                                fmt::format("{} bytes", bytes.size()),
                                 fmt::format("{} as in {}", size, kSetJson));
     const std::string found = base::sha256_hex(bytes);
     if (found != expected)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "SHA-256", found.substr(0, 16) + "...",
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "SHA-256",
+                                found.substr(0, 16) + "...",
                                 base::printable(expected.substr(0, 16)) + "... as in " + kSetJson);
     return bytes;
 }
@@ -124,7 +133,8 @@ void read_head(const SetJson& set, GrassSet& out) {
     const json& root = set.root();
     const int version = set.whole(root, "version", 0, 1 << 20);
     if (version != kSetFormatVersion)
-        set.refuse("version", std::to_string(version), fmt::format("{}: bake the set again", kSetFormatVersion));
+        set.refuse("version", std::to_string(version),
+                   fmt::format("{}: bake the set again", kSetFormatVersion));
     out.name = set.text(root, "preset");
     const json& seed = set.at(root, "seed");
     if (!seed.is_number_unsigned())
@@ -139,26 +149,29 @@ void read_head(const SetJson& set, GrassSet& out) {
     out.appearance.root = set.colour(look, "root", set.real(look, "dry_share", 0, 1));
     out.appearance.tip = set.colour(look, "tip", set.real(look, "variation", 0, 1));
     out.appearance.dry = set.colour(look, "dry", set.real(look, "translucency", 0, 1));
-    out.appearance.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000), set.real(look, "ks", 0, 1000),
-                            set.real(look, "ps", 0, 10000)};
+    out.appearance.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000),
+                            set.real(look, "ks", 0, 1000), set.real(look, "ps", 0, 10000)};
 }
 
 void read_far(const SetJson& set, GrassSet& out) {
     float last = 90.001f;
     for (const json& row : set.array(set.root(), "far", 0, kMaxFarRows)) {
-        const FarRow far{set.real(row, "elevation_deg", 0, 90), set.real(row, "coverage", 0, 1), set.real(row, "height", 0, 1),
-                         set.real(row, "along", 0, 1)};
+        const FarRow far{set.real(row, "elevation_deg", 0, 90), set.real(row, "coverage", 0, 1),
+                         set.real(row, "height", 0, 1), set.real(row, "along", 0, 1)};
         if (far.elevation_deg >= last)
-            set.refuse("far", fmt::format("{} degrees after {}", far.elevation_deg, last), "falling elevations");
+            set.refuse("far", fmt::format("{} degrees after {}", far.elevation_deg, last),
+                       "falling elevations");
         last = far.elevation_deg;
         out.far.push_back(far);
     }
 }
 
-TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name, int images) {
+TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name,
+                        int images) {
     TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
     if (array.layers != images)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images", std::to_string(array.layers), std::to_string(images));
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images",
+                                std::to_string(array.layers), std::to_string(images));
     return array;
 }
 
@@ -171,18 +184,24 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
         level.layer_count = set.whole(entry, "layer_count", 1, kMaxImages);
         level.slice_count = set.whole(entry, "slice_count", 1, kMaxImages);
         // Names are ours, not the file's: nothing outside the directory can be asked for.
-        level.layers = read_array(set, directory, layers_file(k), out.variants * level.layer_count * shared::kPlanes);
-        level.slices = read_array(set, directory, slices_file(k), out.variants * 2 * level.slice_count * shared::kPlanes);
+        level.layers = read_array(set, directory, layers_file(k),
+                                  out.variants * level.layer_count * shared::kPlanes);
+        level.slices = read_array(set, directory, slices_file(k),
+                                  out.variants * 2 * level.slice_count * shared::kPlanes);
         if (level.layers.width != level.layers.height || level.layers.width != level.slices.width)
-            set.refuse("levels", fmt::format("layers {} x {}, slices {} wide", level.layers.width, level.layers.height, level.slices.width),
+            set.refuse("levels",
+                       fmt::format("layers {} x {}, slices {} wide", level.layers.width,
+                                   level.layers.height, level.slices.width),
                        "square layers and slices of the same width");
         if (k > 0 && level.layers.width != std::max(1, out.levels[0].layers.width >> k))
-            set.refuse("levels", fmt::format("{} texels at level {}", level.layers.width, k), "half of the level before");
+            set.refuse("levels", fmt::format("{} texels at level {}", level.layers.width, k),
+                       "half of the level before");
         for (const TextureArray* array : {&level.layers, &level.slices})
             for (const auto& mip : array->mips)
                 total += mip.size();
         if (total > kMaxSetBytes)
-            set.over("textures", fmt::format("{} bytes", total), fmt::format("at most {}", kMaxSetBytes));
+            set.over("textures", fmt::format("{} bytes", total),
+                     fmt::format("at most {}", kMaxSetBytes));
         out.levels.push_back(std::move(level));
     }
 }
@@ -194,9 +213,11 @@ GrassSet read_grass_set(const fs::path& directory) {
     GrassSet out;
     read_head(set, out);
     read_far(set, out);
-    BladeList list = decode_blades(verified_file(set, directory, kBladesFile), directory / kBladesFile, out.side_m);
+    BladeList list = decode_blades(verified_file(set, directory, kBladesFile),
+                                   directory / kBladesFile, out.side_m);
     if (static_cast<int>(list.variant_begin.size()) != out.variants + 1)
-        set.refuse("variants", std::to_string(out.variants), fmt::format("{} as in {}", list.variant_begin.size() - 1, kBladesFile));
+        set.refuse("variants", std::to_string(out.variants),
+                   fmt::format("{} as in {}", list.variant_begin.size() - 1, kBladesFile));
     out.blades = std::move(list.blades);
     out.variant_begin = std::move(list.variant_begin);
     read_levels(set, directory, out);
