@@ -22,8 +22,8 @@ bool same_file(const fs::path& a, const fs::path& b) {
     std::error_code error;
     if (fs::equivalent(a, b, error))
         return true;
-    const fs::path whole_a = fs::weakly_canonical(a, error);
-    const fs::path whole_b = fs::weakly_canonical(b, error);
+    const fs::path whole_a = fs::weakly_canonical(fs::absolute(a), error);
+    const fs::path whole_b = fs::weakly_canonical(fs::absolute(b), error);
     return !error && whole_a == whole_b;
 }
 

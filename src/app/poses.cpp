@@ -34,9 +34,9 @@ scene::Pose find_camera(const scene::Scene& scene, const std::string& camera) {
                                            list_names(scene.cameras, scene)));
         return found->second;
     }
-    const auto chosen = scene.cameras.find("default");
-    if (chosen != scene.cameras.end())
-        return chosen->second;
+    for (const char* const name : {"default", "road"})
+        if (const auto chosen = scene.cameras.find(name); chosen != scene.cameras.end())
+            return chosen->second;
     return scene.cameras.empty() ? scene::Pose{} : scene.cameras.begin()->second;
 }
 

@@ -66,7 +66,8 @@ std::string reason_of(const base::Error& error) {
 void bake(const fs::path& preset, const fs::path& set) {
     base::log_info(fmt::format("grass set of {}: baked on first use, into {}",
                                base::printable(preset.native(), 200), set.native()));
-    std::vector<std::string> arguments = {fs::absolute(preset).string(), "-o", set.string()};
+    std::vector<std::string> arguments = {fs::absolute(preset).string(), "-o", set.string(),
+                                          "--no-preview", "--no-volume"};
     if (base::verbosity() == base::Verbosity::kQuiet)
         arguments.emplace_back("-q");
     if (const int code = run_program(texgen_program(), arguments); code != 0)

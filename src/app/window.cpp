@@ -75,6 +75,7 @@ Window::Window(const std::string& title, int width, int height, bool debug) {
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetScrollCallback(window_, on_scroll);
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap within one slow frame counts
 }
 
 Window::~Window() {

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Faults from outside: no GPU, broken shaders, signals, kill -9, two writers."""
+import os
+import shutil
+import signal
+import threading
+
+import sward_cli
+from sward_cli import CliCase, SIZE, environment
+
+# A preset whose bake lasts long enough to be hit.
+LONG_PRESET = sward_cli.TINY_PRESET.replace("size = 64", "size = 512").replace("variants = 1", "variants = 8")
+
+
+def temporaries(folder):
+    return [path for path in folder.rglob(".sward-*")]
+
+
+class NoGpu(CliCase):
+    def setUp(self):
+        super().setUp()
+        self.scene()
+
+    def refuse_gpu(self, pieces, **changes):
+        self.refuse(6, pieces, "render", "scene.toml", "-o", "out.png", "--size", SIZE,
+                    env=environment(**changes))
+
+    def test_no_egl(self):
+        self.refuse_gpu(["EGL"], __EGL_VENDOR_LIBRARY_DIRS="/nonexistent")
+
+    def test_old_gl(self):
+        self.refuse_gpu(["4.5"], MESA_GL_VERSION_OVERRIDE="3.3")
+
+    def test_no_display(self):
+        self.refuse(6, ["display", "sward render"], "view", "scene.toml")
+        self.refuse(6, ["display", "sward render"], "view", "scene.toml", env=environment(DISPLAY=":9876"))
+
+    def test_broken_shader(self):
+        shaders = self.dir / "shaders"
+        shutil.copytree(sward_cli.SOURCE / "shaders", shaders)
+        env = environment(SWARD_SHADERS=shaders)
+        self.assert_done(self.render(env=env))
+        (self.dir / "out.png").unlink()
+        broken = shaders / "terrain" / "terrain.frag"
+        lines = broken.read_text().splitlines()
+        lines.append("this does not compile;")
+        broken.write_text("\n".join(lines) + "\n")
+        result = self.render(env=env)
+        self.assertEqual(result.code, 6, result.err)
+        self.assertIn(f"terrain.frag:{len(lines)}", result.err)
+        broken.unlink()
+        self.refuse_gpu(["terrain.frag"], SWARD_SHADERS=shaders)
+        self.assertFalse((self.dir / "out.png").exists())
+
+
+class Signals(CliCase):
+    def setUp(self):
+        super().setUp()
+        self.scene()
+        (self.dir / "long.toml").write_text(LONG_PRESET)
+
+    def end_of(self, child):
+        try:
+            child.communicate(timeout=30)
+        finally:
+            child.kill()
+        return child.returncode
+
+    def test_render(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(signal=number.name):
+                before = sward_cli.snapshot(self.dir)
+                child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", "640x360",
+                                        "--warm", "10000", cwd=self.dir)
+                pause = threading.Event()
+                pause.wait(0.8)  # into the frames, or before them: both must end well
+                self.assertIsNone(child.poll())
+                child.send_signal(number)
+                self.assertEqual(self.end_of(child), code)
+                self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_texgen(self):
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            with self.subTest(signal=number.name):
+                before = sward_cli.snapshot(self.dir)
+                child = sward_cli.start("texgen", "long.toml", "-o", "made", cwd=self.dir)
+                self.assertTrue(sward_cli.interrupt(child, number, lambda: temporaries(self.dir)))
+                self.assertEqual(self.end_of(child), code)
+                self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_bake_ends_with_sward(self):
+        """A signal to sward alone also ends the texgen that it runs."""
+        text = sward_cli.SCENE.replace('"set"', '"long.toml"')
+        (self.dir / "scene.toml").write_text(text)
+        cache = self.dir / "cache"
+        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE,
+                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        self.assertTrue(sward_cli.interrupt(child, signal.SIGTERM, lambda: temporaries(cache)))
+        self.assertEqual(self.end_of(child), 143)
+        pause = threading.Event()
+        for _ in range(100):
+            if not temporaries(cache):
+                break
+            pause.wait(0.1)
+        self.assertEqual(temporaries(cache), [])
+        self.assertEqual([p for p in (cache / "sward/sets").iterdir() if p.is_dir()], [])
+
+    def test_kill(self):
+        """kill -9 leaves a temporary, never half a set; the next run sweeps it."""
+        child = sward_cli.start("texgen", "long.toml", "-o", "made", cwd=self.dir)
+        self.assertTrue(sward_cli.interrupt(child, signal.SIGKILL, lambda: temporaries(self.dir)))
+        self.assertEqual(self.end_of(child), -9)
+        self.assertFalse((self.dir / "made").exists())
+        self.assertEqual(len(temporaries(self.dir)), 1)
+        self.assert_done(self.render())
+        self.assertEqual(temporaries(self.dir), [])
+
+    def test_two_writers(self):
+        """Two texgens with one output: one complete winner, and nothing beside it."""
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+        children = [sward_cli.start("texgen", "tiny.toml", "-o", "made", "--no-preview", "--no-volume",
+                                    cwd=self.dir) for _ in range(2)]
+        self.assertEqual([self.end_of(child) for child in children], [0, 0])
+        self.assertEqual(temporaries(self.dir), [])
+        text = sward_cli.SCENE.replace('"set"', '"made"')
+        (self.dir / "scene.toml").write_text(text)
+        self.assert_done(self.render())
+
+    def test_ignored_interrupt(self):
+        """Under nohup a hang-up is no reason to end."""
+        def ignore():
+            signal.signal(signal.SIGHUP, signal.SIG_IGN)
+
+        self.assert_done(self.render(limits=ignore))
+        self.assertTrue(os.path.getsize(self.dir / "out.png"))
+
+
+if __name__ == "__main__":
+    sward_cli.main()

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The command line: what is refused, with which words, and what works without a GPU."""
+import shutil
+
+import sward_cli
+from sward_cli import CliCase, environment
+
+NO_GPU = {"__EGL_VENDOR_LIBRARY_DIRS": "/nonexistent"}
+BAD_NUMBERS = ["64px", "", "nan", "inf", "1e400", "1,5", "0x10", " 1", "+1"]
+
+
+class Options(CliCase):
+    def refuse_render(self, code, pieces, *arguments, **options):
+        self.refuse(code, pieces, "render", "scene.toml", "-o", "out.png", *arguments, **options)
+
+    def test_numbers(self):
+        self.scene()
+        for option in ("--time", "--frame-index"):
+            for text in BAD_NUMBERS:
+                with self.subTest(option=option, text=text):
+                    self.refuse_render(2, [option, text, "expected"], option, text)
+        for option in ("--exposure", "--reference-grid", "--density"):
+            with self.subTest(option=option):
+                self.refuse_render(2, [option, "nan"], f"{option}=nan")
+        for option in ("--time", "--exposure", "--density", "--blades-distance", "--warm"):
+            with self.subTest(option=option):
+                self.refuse_render(2, [option, '"-1"'], option, "-1")
+        for option in ("--frame-index", "--warm", "--force-tier", "--samples"):
+            with self.subTest(option=option):
+                self.refuse_render(2, [option, "9223372036854775808"], option, "9223372036854775808")
+
+    def test_size(self):
+        self.scene()
+        for text in ("64px", "-1", "0x10", "10x0", "64", "64x", "x64", "64x36x1", "1.5x2", "", "nanxnan"):
+            with self.subTest(text=text):
+                self.refuse_render(2, ["--size", "expected"], "--size", text)
+        for text in ("16385x1", "1x16385", "1000000x1000000", "9223372036854775808x1"):
+            with self.subTest(text=text):
+                self.refuse_render(4, ["--size", text], "--size", text)
+
+    def test_choices_and_poses(self):
+        self.scene()
+        cases = [("--tiers", "most"), ("--handover", "soft"), ("--samples", "3"), ("--camera", "raod"),
+                 ("--camera", "1,2,3"), ("--camera", "1,2,3,4,nan"), ("--camera", ""), ("--path", "rol"),
+                 ("--lod-eye", "1,2"), ("--frames", "5:1"), ("--frames", "1"), ("--frames", "-1:2"),
+                 ("--fixed-timestep", "0")]
+        for option, text in cases:
+            with self.subTest(option=option, text=text):
+                self.refuse_render(2, [option, "found", text, "expected"], option, text)
+        self.refuse_render(2, ["--camera", "road"], "--camera", "raod")  # the known names are told
+
+    def test_usage(self):
+        self.scene()
+        self.refuse(2, ["subcommand"])
+        self.refuse(2, ["bogus"], "bogus")
+        self.refuse(2, ["SCENE"], "render")
+        self.refuse(2, ["--output"], "render", "scene.toml")
+        self.refuse(2, ["--output"], "render", "scene.toml", "-o")
+        self.refuse(2, ["SCENE"], "render", "", "-o", "out.png")
+        self.refuse_render(2, ["--bogus"], "--bogus")
+        self.refuse_render(2, ["scene2.toml"], "scene2.toml")
+        self.refuse_render(2, ["--time", "2 times"], "--time", "1", "--time", "1")
+        self.refuse_render(2, ["--camera", "--path"], "--camera", "road", "--path", "roll")
+        self.refuse_render(2, ["\\n"], "two\nlines")
+
+    def test_aovs(self):
+        self.scene()
+        self.refuse_render(2, ["--output", "exr"], "--aov", "depth")
+        for text in ("deep", "depth,,tier", "depth,depth", ""):
+            with self.subTest(text=text):
+                self.refuse(2, ["--aov"], "render", "scene.toml", "-o", "out.exr", "--aov", text)
+
+    def test_help_and_info_without_gpu(self):
+        env = environment(**NO_GPU)
+        for program, arguments in (("sward", ["--help"]), ("sward", ["--version"]),
+                                   ("sward", ["render", "--help"]), ("sward", ["view", "--help"]),
+                                   ("texgen", ["--help"]), ("texgen", ["--version"])):
+            with self.subTest(program=program, arguments=arguments):
+                result = sward_cli.run(program, *arguments, env=env)
+                self.assert_done(result)
+                self.assertTrue(result.out)
+                self.assertEqual(result.err, "")
+        result = self.sward("info", env=env)
+        self.assert_done(result)
+        self.assertIn("none that can render", result.out)
+        result = self.sward("info")
+        self.assert_done(result)
+        self.assertRegex(result.out, r"opengl +4\.")
+
+    def test_locale(self):
+        """A comma as decimal point in the environment changes neither what is read nor what is refused."""
+        self.scene()
+        env = environment(LC_ALL="de_DE.UTF-8", LC_NUMERIC="de_DE.UTF-8")
+        self.refuse_render(2, ["--time", "1,5"], "--time", "1,5", env=env)
+        self.assert_done(self.render("--time", "1.5", env=env))
+        first = (self.dir / "out.png").read_bytes()
+        self.assert_done(self.render("--time", "1.5"))
+        self.assertEqual(first, (self.dir / "out.png").read_bytes())
+
+    def test_texgen_numbers(self):
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+        for option in ("--size", "--variants", "--seed", "--layers"):
+            for text in ("64px", "-1", "nan", "", "1e400", "9223372036854775808"):
+                with self.subTest(option=option, text=text):
+                    if option == "--seed" and text == "9223372036854775808":
+                        continue  # a seed may be any 64 bits
+                    shutil.rmtree(self.dir / "set", ignore_errors=True)
+                    result = sward_cli.run("texgen", "tiny.toml", "-o", "set", option, text, cwd=self.dir)
+                    self.assertIn(result.code, (2, 4), result.err)
+                    self.assertEqual(len(result.err.splitlines()), 1, result.err)
+                    self.assertIn(option, result.err)
+                    self.assertFalse((self.dir / "set").exists())
+
+
+if __name__ == "__main__":
+    sward_cli.main()

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Outputs: names that cannot be written are refused before any work; a write that fails leaves what stood there."""
+import json
+import os
+import resource
+
+import sward_cli
+from sward_cli import CliCase, SIZE
+
+
+class Outputs(CliCase):
+    def setUp(self):
+        super().setUp()
+        self.scene()
+
+    def refuse_output(self, code, pieces, output, *arguments, **options):
+        self.refuse(code, pieces, "render", "scene.toml", "-o", output, "--size", SIZE, *arguments, **options)
+
+    def test_names(self):
+        (self.dir / "folder.png").mkdir()
+        (self.dir / "file").write_text("")
+        os.mkfifo(self.dir / "pipe.png")
+        (self.dir / "loop.png").symlink_to("loop.png")
+        self.refuse_output(5, ["folder.png", "a directory"], "folder.png")
+        self.refuse_output(5, ["set", "a directory"], "set")
+        self.refuse_output(5, ["/dev/full", "a device"], "/dev/full")
+        self.refuse_output(5, ["pipe.png", "FIFO"], "pipe.png")
+        self.refuse_output(5, ["loop.png"], "loop.png")
+        self.refuse_output(5, ["missing"], "missing/out.png")
+        self.refuse_output(5, ["file"], "file/out.png")
+        self.refuse_output(5, ["too long"], "n" * 300 + ".png")
+        self.refuse_output(2, ["--output", "found \"\""], "")
+        for name in ("out", "out.jpg", "out.png.txt", ".png", "out."):
+            with self.subTest(name=name):
+                self.refuse_output(2, ["--output", name], name)
+
+    def test_inputs(self):
+        """An output that is the scene's own file under any name is refused."""
+        scene = sward_cli.SCENE.replace("height.raw", "height.png")
+        (self.dir / "height.png").write_bytes(b"not read")
+        (self.dir / "scene.toml").write_text(scene)
+        (self.dir / "link.png").symlink_to("height.png")
+        for name in ("height.png", "./set/../height.png", self.dir / "height.png", "link.png"):
+            with self.subTest(name=name):
+                self.refuse_output(2, ["--output", "the scene's own"], name)
+        self.refuse_output(2, ["--stats", "the scene's own"], "out.png", "--stats", "scene.toml")
+        self.refuse_output(2, ["--stats", "another file"], "out.png", "--stats", "./out.png")
+
+    def test_permissions(self):
+        folder = self.dir / "closed"
+        folder.mkdir(mode=0o555)
+        self.refuse_output(5, ["closed", "ermission"], "closed/out.png", prefix=sward_cli.without_root())
+        self.refuse_output(5, ["closed"], "out.png", "--stats", "closed/s.json",
+                           prefix=sward_cli.without_root())
+        result = sward_cli.run("texgen", self.dir / "tiny.toml", "-o", folder / "set",
+                               prefix=sward_cli.without_root())
+        self.assertIn(result.code, (5,), result.err)
+        self.assertEqual(list(folder.iterdir()), [])
+
+    def test_full_disk(self):
+        """A limit on the size of files stands for a disk without room: exit 5, the old file intact, nothing beside it."""
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (64, 64))
+
+        (self.dir / "out.png").write_bytes(b"old")
+        (self.dir / "out.exr").write_bytes(b"old")
+        env = sward_cli.environment(MESA_SHADER_CACHE_DISABLE="true")
+        for name in ("out.png", "out.exr"):
+            before = sward_cli.snapshot(self.dir)
+            result = self.render("-o", name, limits=small, env=env)
+            self.assertEqual(result.code, 5, result.err)
+            self.assertEqual(len(result.err.splitlines()), 1, result.err)
+            self.assertIn(name, result.err)
+            self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_texgen_full_disk(self):
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))
+
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+        before = sward_cli.snapshot(self.dir)
+        result = sward_cli.run("texgen", "tiny.toml", "-o", "set", "-q", cwd=self.dir, limits=small)
+        self.assertEqual(result.code, 5, result.err)
+        self.assertIn("set", result.err)
+        self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_sequence(self):
+        for name in ("f.png", "f.%d.%d.png", "f.%s.png", "f.%4d.png", "f.%012d.png", "f.%.png"):
+            with self.subTest(name=name):
+                self.refuse_output(2, ["--output", "%04d"], name, "--frames", "0:1")
+        result = self.render("-o", "f.%03d.png", "--frames", "2:4", "--path", "roll", "--stats", "s.json")
+        self.assert_done(result)
+        names = sorted(path.name for path in self.dir.glob("f.*"))
+        self.assertEqual(names, ["f.002.png", "f.003.png", "f.004.png"])
+        frames = json.loads((self.dir / "s.json").read_text())["frames"]
+        self.assertEqual([frame["frame"] for frame in frames], [2, 3, 4])
+
+    def test_stats_and_aovs(self):
+        result = self.render("-o", "out.exr", "--aov", "color,depth,tier,coverage", "--stats", "s.json",
+                             "--debug-gl", "--warm", "1")
+        self.assert_done(result)
+        stats = json.loads((self.dir / "s.json").read_text())
+        self.assertEqual(set(stats), {"gpu", "size", "passes", "blades", "fragments", "bytes"})
+        self.assertEqual(stats["size"], [64, 36])
+        self.assertGreater(len(stats["passes"]), 4)
+        for row in stats["passes"]:
+            self.assertEqual(set(row), {"name", "gpu_ms", "cpu_ms"})
+            self.assertGreaterEqual(row["cpu_ms"], 0)
+        self.assertEqual(set(stats["blades"]), {"considered", "drawn"})
+        self.assertEqual(set(stats["fragments"]), {"shells", "slices"})
+        self.assertGreater(stats["bytes"]["gpu"], 0)
+        self.assertGreater(stats["bytes"]["process_peak"], 0)
+        header = (self.dir / "out.exr").read_bytes()[:4096]
+        self.assertEqual(header[:4], b"\x76\x2f\x31\x01")
+        for channel in (b"depth\0", b"tier\0", b"coverage\0", b"R\0"):
+            self.assertIn(channel, header)
+
+    def test_no_litter(self):
+        self.assert_done(self.render())
+        names = {path.name for path in self.dir.iterdir()}
+        self.assertEqual(names, {"height.raw", "height.json", "set", "scene.toml", "out.png"})
+
+
+if __name__ == "__main__":
+    sward_cli.main()
