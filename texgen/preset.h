@@ -37,8 +37,8 @@ struct Preset {
     Range lean_deg{0, 16};       ///< of the root from the vertical
     Range curvature_deg{5, 34};  ///< angle between the tangents of root and tip
     Range stiffness{0.35, 0.8};  ///< 0 limp, 1 stiff: for the physics, no effect on the rest pose
-    Range droop{
-        0, 0.35}; ///< weight's part of the curve: adds up to kDroopDeg for a blade of full length
+    /// Weight's part of the curve: adds up to kDroopDeg for a blade of full length.
+    Range droop{0, 0.35};
 
     Colour root{0.052, 0.088, 0.022};
     Colour tip{0.078, 0.152, 0.032};
@@ -52,8 +52,8 @@ struct Preset {
     double ps = 18;
     double translucency = 0.45;
 
-    std::int64_t size =
-        512; ///< texels a side at level 0, a power of two; a texel should be as wide as a blade
+    /// Texels a side at level 0, a power of two; a texel should be as wide as a blade.
+    std::int64_t size = 512;
     std::int64_t layers = 12; ///< shells at level 0
     std::int64_t slices = 16; ///< vertical slices an axis and patch side at level 0
     std::int64_t levels = 4;  ///< each halves size, layers and slices

@@ -70,6 +70,32 @@ FileEntry entry_of(const std::string& name, std::span<const std::byte> bytes) {
     return {name, bytes.size(), base::sha256_hex(bytes)};
 }
 
+/// Fills `folder`; returns what set.json lists.
+std::vector<FileEntry> write_files(const grass::GrassSet& set, const fs::path& folder,
+                                   const BakeOptions& options) {
+    const std::vector<Part> parts = parts_of(set, options);
+    std::vector<FileEntry> files(parts.size());
+    {
+        const StepTimer timer("files");
+        base::Progress progress("files", parts.size());
+        parallel_for(parts.size(), resolve_threads(options.threads), [&](std::size_t i, int) {
+            const std::vector<std::byte> bytes = parts[i].encode();
+            files[i] = entry_of(parts[i].name, bytes);
+            base::write_file_atomic(folder / parts[i].name, bytes);
+            progress.advance();
+        });
+    }
+    if (options.preview) {
+        const StepTimer timer("preview");
+        const fs::path path = folder / grass::kPreviewFile;
+        write_preview(set, path, options.threads);
+        files.push_back(
+            entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
+    }
+    base::write_file_atomic(folder / grass::kSetJson, set_json(set, files));
+    return files;
+}
+
 } // namespace
 
 grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
@@ -131,26 +157,16 @@ void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path&
                const BakeOptions& options) {
     require_set_place(directory);
     base::PendingOutput pending(directory, base::PendingOutput::Kind::kDirectory);
-    const std::vector<Part> parts = parts_of(set, options);
-    std::vector<FileEntry> files(parts.size());
-    {
-        const StepTimer timer("files");
-        base::Progress progress("files", parts.size());
-        parallel_for(parts.size(), resolve_threads(options.threads), [&](std::size_t i, int) {
-            const std::vector<std::byte> bytes = parts[i].encode();
-            files[i] = entry_of(parts[i].name, bytes);
-            base::write_file_atomic(pending.path() / parts[i].name, bytes);
-            progress.advance();
-        });
+    std::vector<FileEntry> files;
+    try {
+        files = write_files(set, pending.path(), options);
+    } catch (const base::Error& error) { // name the place the user asked for, not the temporary
+        std::string text = error.what();
+        const std::string temporary = pending.path().string();
+        if (const std::size_t at = text.find(temporary); at != std::string::npos)
+            text.replace(at, temporary.size(), directory.string());
+        throw base::Error(error.code(), text);
     }
-    if (options.preview) {
-        const StepTimer timer("preview");
-        const fs::path path = pending.path() / grass::kPreviewFile;
-        write_preview(set, path, options.threads);
-        files.push_back(
-            entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
-    }
-    base::write_file_atomic(pending.path() / grass::kSetJson, set_json(set, files));
     pending.commit();
     std::uint64_t bytes = 0;
     for (const FileEntry& file : files)
