@@ -11,6 +11,7 @@
 #include <ogr_srs_api.h>
 
 #include "base/error.h"
+#include "base/file.h"
 
 namespace sward::assets {
 namespace {
@@ -20,6 +21,8 @@ void keep(CPLErr level, CPLErrorNum, const char* message) {
     if (level >= CE_Failure && !*error)
         *error = message;
 }
+
+constexpr std::uint64_t kMostCrsBytes = 65536;
 
 /// Not GDALAllRegister: that takes a second, loads plugins, and brings drivers that follow
 /// references.
@@ -59,6 +62,11 @@ Dataset GdalScope::open(const std::filesystem::path& path, const char* const* dr
     if (absolute.starts_with("/vsi"))
         throw base::input_error(base::ExitCode::kBadInput, path, 0, "path",
                                 "a virtual path of GDAL", "a file on this machine");
+    // The one side file that is read, an ASCII grid's CRS, by a driver that would wait on a FIFO.
+    for (const char* extension : {".prj", ".PRJ"})
+        if (const auto side = std::filesystem::path(absolute).replace_extension(extension);
+            std::filesystem::exists(side))
+            static_cast<void>(base::read_text(side, kMostCrsBytes));
     return Dataset(GDALOpenEx(absolute.c_str(),
                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers,
                               nullptr, nullptr));

@@ -21,6 +21,9 @@ constexpr int kOutlinePoints =
 constexpr int kCell =
     16; // posts between exact transformations; linear between them errs by under 1e-4 posts
 
+constexpr double kRim =
+    0.02; // posts past the raster's last one that are still that one: a projection's rounding
+
 base::Error bad(const fs::path& path, std::string_view what, const std::string& found,
                 std::string_view expected, base::ExitCode code = base::ExitCode::kBadInput) {
     return base::input_error(code, path, 0, what, found, expected);
@@ -148,10 +151,13 @@ scene::Heightfield to_local_grid(const Raster& raster, const fs::path& path) {
         throw bad(path, "extent", fmt::format("{:.0f} x {:.0f} km", half.x / 500, half.y / 500),
                   fmt::format("at most {:.0f} km a side for a flat frame", kWidest_m / 1000),
                   base::ExitCode::kOverLimit);
-    glm::dvec2 posts = glm::floor(2.0 * half / field.spacing_m + 1e-6) + 1.0;
+    glm::dvec2 posts = glm::floor(2.0 * half / field.spacing_m + kRim) + 1.0;
     // Odd stays odd: then the new posts stand on the old ones near the middle, and peaks keep their
     // height.
     posts -= glm::mod(glm::dvec2(raster.width, raster.height) - posts, 2.0);
+    if (!(posts.x >= 2 && posts.y >= 2))
+        throw bad(path, "size", fmt::format("{} x {} posts", raster.width, raster.height),
+                  "enough for an upright rectangle of 2 x 2");
     check_size(path, static_cast<std::int64_t>(posts.x), static_cast<std::int64_t>(posts.y), 1,
                sizeof(float), std::numeric_limits<std::uint64_t>::max(), 2);
     field.width = static_cast<int>(posts.x);

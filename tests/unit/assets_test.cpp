@@ -199,8 +199,8 @@ protected:
 
 TEST_F(Elevation, ProjectedRasterKeepsItsGrid) {
     const Heightfield field = load(utm_slope().bytes());
-    ASSERT_LE(std::abs(field.width - 40), 2);
-    ASSERT_LE(std::abs(field.height - 30), 2);
+    EXPECT_EQ(field.width, 40);
+    EXPECT_EQ(field.height, 30);
     EXPECT_NEAR(field.spacing_m.x, 10, 0.01) << "the central meridian's scale of 0.9996 is undone";
     EXPECT_NEAR(field.spacing_m.y, 20, 0.02);
     EXPECT_GT(field.spacing_m.x, 10);
@@ -446,6 +446,28 @@ TEST_F(Elevation, OtherFormats) {
 
     put(dir_ / "flat.json", R"({"width": 2, "height": 2, "spacing_m": [3, 4]})");
     EXPECT_EQ(load(std::string(16, '\0'), {}, "flat.f32").spacing_m, glm::dvec2(3, 4));
+}
+
+TEST_F(Elevation, AsciiGridTakesItsCrsFromAPrjFile) {
+    const std::string grid =
+        "ncols 3\nnrows 2\nxllcorner 500000\nyllcorner 5500000\ncellsize 10\n1 2 3\n4 5 6\n";
+    put(dir_ / "hill.prj",
+        "PROJCS[\"UTM 32N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS "
+        "84\",6378137,298.257223563]],"
+        "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_"
+        "Mercator\"],"
+        "PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_"
+        "factor\",0.9996],"
+        "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]");
+    const Heightfield field = load(grid, {}, "hill.asc");
+    EXPECT_EQ(field.width, 3);
+    EXPECT_EQ(field.height, 2);
+    EXPECT_NEAR(field.metres[4], 5, 0.01);
+    fs::remove(dir_ / "hill.prj");
+    ASSERT_EQ(::mkfifo((dir_ / "hill.prj").c_str(), 0600), 0);
+    ::alarm(5);
+    expect_holds(error(grid, {}, ExitCode::kIo, "hill.asc"), "hill.prj: cannot read: found a FIFO");
+    ::alarm(0);
 }
 
 TEST_F(Elevation, NothingIsWrittenBesideTheFile) {
