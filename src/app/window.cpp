@@ -17,12 +17,22 @@ namespace {
 constexpr double kStickDeadZone = 0.15; // worn sticks rest this far from the middle
 constexpr double kWaitSeconds = 0.2;
 
-double g_wheel = 0;       // notches since the last poll: GLFW tells them only by callback
+// Since the last poll: GLFW tells these only by callback.
+double g_wheel = 0; // notches
+std::array<bool, kKeys.size()> g_pressed{};
 std::string g_glfw_error; // the last one, for the message
 
 void on_error(int, const char* text) {
     g_glfw_error = text == nullptr ? "" : text;
 }
+
+/// Presses, not the state of keys: in a slow frame a key goes down and up again unseen.
+void on_key(GLFWwindow*, int key, int, int action, int) {
+    for (std::size_t i = 0; i < kKeys.size(); ++i)
+        if (action == GLFW_PRESS && key == (kKeys[i].key == 0x1b ? GLFW_KEY_ESCAPE : kKeys[i].key))
+            g_pressed[i] = true;
+}
+
 void on_scroll(GLFWwindow*, double, double y) {
     g_wheel += y;
 }
@@ -74,8 +84,9 @@ Window::Window(const std::string& title, int width, int height, bool debug) {
         fail("no window with OpenGL 4.5");
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
+    glfwSetKeyCallback(window_, on_key);
     glfwSetScrollCallback(window_, on_scroll);
-    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap within one slow frame counts
+    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap within one slow frame moves
 }
 
 Window::~Window() {
@@ -109,12 +120,9 @@ void Window::swap() {
 Input Window::poll(bool panel_has_mouse, bool panel_has_keyboard) {
     glfwPollEvents();
     Input input;
-    for (std::size_t i = 0; i < kKeys.size(); ++i) {
-        const int key = kKeys[i].key == 0x1b ? GLFW_KEY_ESCAPE : kKeys[i].key;
-        const bool down = !panel_has_keyboard && glfwGetKey(window_, key) == GLFW_PRESS;
-        input.pressed[i] = down && !held_[i];
-        held_[i] = down;
-    }
+    if (!panel_has_keyboard)
+        input.pressed = g_pressed;
+    g_pressed = {};
     if (!panel_has_keyboard)
         read_keyboard(input);
     read_mouse(input, panel_has_mouse);

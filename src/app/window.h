@@ -73,7 +73,6 @@ private:
     GLFWwindow* window_ = nullptr;
     bool looking_ = false;    ///< the right button holds the mouse
     glm::dvec2 cursor_{0, 0}; ///< where it was, pixels
-    std::array<bool, static_cast<std::size_t>(Action::kCount)> held_{}; ///< a press counts once
 };
 
 } // namespace sward::app

@@ -16,6 +16,7 @@ from pathlib import Path
 
 SOURCE = Path(os.environ.get("SWARD_SOURCE_DIR", Path(__file__).resolve().parents[2]))
 BIN = Path(os.environ.get("SWARD_BIN_DIR", SOURCE / "build/release/bin"))
+FULL_BIN = BIN  # stays, where a test sets BIN to another build
 WORK = BIN.parent / "cli"  # sets and caches that outlive one test
 SIZE = "64x36"
 REFUSAL_CPU_S = 2.0  # processor time: the wall clock of a loaded machine says nothing
@@ -131,9 +132,9 @@ def tiny_set():
     with open(WORK / "set.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         made = target / "set.json"
-        if not made.exists() or made.stat().st_mtime < (BIN / "texgen").stat().st_mtime:
+        if not made.exists() or made.stat().st_mtime < (FULL_BIN / "texgen").stat().st_mtime:
             preset.write_text(TINY_PRESET)
-            result = run("texgen", preset, "-o", target, "-q", "--no-volume", "--no-preview")
+            result = run(FULL_BIN / "texgen", preset, "-o", target, "-q", "--no-volume", "--no-preview")
             assert result.code == 0, result.err
     return target
 

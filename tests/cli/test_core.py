@@ -69,5 +69,4 @@ class Core(CliCase):
 
 
 if __name__ == "__main__":
-    sward_cli.tiny_set()  # by the full build's texgen, before BIN changes
     sward_cli.main()

@@ -42,6 +42,7 @@ class Display:
         self.x11.XDefaultRootWindow.restype = ctypes.c_ulong
         self.connection = ctypes.c_void_p(self.x11.XOpenDisplay(self.name.encode()))
         self.root = self.x11.XDefaultRootWindow(self.connection)
+        self.time = 0  # of key events: GLFW drops one that is not later than the last
 
     def close(self):
         self.x11.XCloseDisplay(self.connection)
@@ -71,7 +72,9 @@ class Display:
     def tap(self, window, key):
         code = self.x11.XKeysymToKeycode(self.connection, ctypes.c_ulong(ord(key)))
         for kind, mask in ((2, 1), (3, 2)):  # KeyPress, KeyRelease
-            event = XKeyEvent(type=kind, window=window, root=self.root, same_screen=1, keycode=code, time=1)
+            self.time += 10
+            event = XKeyEvent(type=kind, window=window, root=self.root, same_screen=1, keycode=code,
+                              time=self.time)
             self.x11.XSendEvent(self.connection, ctypes.c_ulong(window), 0, mask, ctypes.byref(event))
         self.x11.XSync(self.connection, 0)
 
