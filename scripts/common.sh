@@ -6,7 +6,7 @@ packages=(
     g++ cmake ninja-build pkg-config ccache
     libglfw3-dev libglm-dev libtinygltf-dev libopenvdb-dev libboost-dev libopenimageio-dev libepoxy-dev
     libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libglx-mesa0 libimgui-dev libcli11-dev libfmt-dev
-    libspdlog-dev nlohmann-json3-dev libtomlplusplus-dev libgdal-dev libbullet-dev libzstd-dev
+    libspdlog-dev nlohmann-json3-dev libtomlplusplus-dev libgdal-dev libzstd-dev
     libgtest-dev libtbb-dev libimath-dev
     python3 python3-venv ca-certificates xvfb xauth
 )
@@ -36,12 +36,14 @@ install_packages() {
         return
     fi
     local installed missing=() name
-    installed=" $(dpkg-query --show --showformat '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" \
-        2>/dev/null | awk '$1 == "ii" { print $2 }' | tr '\n' ' ') "
+    # dpkg-query fails when it knows one of them not; those it knows are listed all the same.
+    installed=$( (dpkg-query --show --showformat '${db:Status-Abbrev} ${Package}\n' "${packages[@]}" || true) \
+        2>/dev/null | awk '$1 == "ii" { print $2 }' | tr '\n' ' ')
+    installed=" $installed "
     for name in "${packages[@]}"; do
         [[ "$installed" == *" $name "* ]] || missing+=("$name")
     done
-    [ ${#missing[@]} -eq 0 ] && return
+    [ ${#missing[@]} -gt 0 ] || return 0
     say "packages: installing ${missing[*]}"
     as_root env DEBIAN_FRONTEND=noninteractive apt-get update -q >&2 || fail "packages: apt-get update failed"
     as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends \
