@@ -4,7 +4,7 @@
 #include "lib/wind.glsl"
 #include "shared/bend.h"
 
-layout(std430, binding = BIND_VISIBLE) readonly buffer Visible { uvec2 visible[]; };
+layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
 
 out BladeVertex {
     vec4 root;  // world; w: distance from the place that tier selection measures from
@@ -15,7 +15,7 @@ out BladeVertex {
 } blade_out;
 
 void main() {
-    uvec2 which = visible[gl_VertexID];
+    uvec2 which = survivors[gl_VertexID];
     BladeRecord blade = blades[which.y];
     vec3 root = blade_root(which.x, blade);
     Ground ground = ground_surface(root.xz);

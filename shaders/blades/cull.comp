@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and their count.
+// In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
 #include "lib/blade_place.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
 layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
-layout(std430, binding = BIND_SEGMENTS) writeonly buffer Segments { uvec2 segments[]; };
-layout(std430, binding = BIND_SEGMENT_COUNTS) writeonly buffer Counts { uint counts[]; };
+layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
+layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = BIND_CULL_TOTAL) buffer Total { uint total; };
 uniform int first_item;
 
-shared uint sums[CULL_GROUP];
+shared uint kept_bits[CULL_GROUP / 32]; // a bit a lane: or-ing commutes, so the order is the lanes' in every run
 
 // J7 frustum test on the sphere around the blade; bent blades stay within their length of the root.
 bool in_view(vec3 root, float reach) {
@@ -31,21 +32,28 @@ bool keep(uvec2 item, uint index) {
 void main() {
     uint group = gl_WorkGroupID.x;
     uint lane = gl_LocalInvocationID.x;
+    if (lane < uint(CULL_GROUP / 32)) {
+        kept_bits[lane] = 0u;
+    }
+    barrier();
     uvec2 item = items[uint(first_item) + group];
     uint index = item.y + lane;
     bool kept = keep(item, index);
-    sums[lane] = kept ? 1u : 0u;
-    barrier();
-    for (uint step = 1u; step < uint(CULL_GROUP); step *= 2u) { // inclusive scan
-        uint add = lane >= step ? sums[lane - step] : 0u;
-        barrier();
-        sums[lane] += add;
-        barrier();
-    }
     if (kept) {
-        segments[group * uint(CULL_GROUP) + sums[lane] - 1u] = uvec2(item.x, index);
+        atomicOr(kept_bits[lane / 32u], 1u << (lane % 32u));
+    }
+    barrier();
+    uint before = uint(bitCount(kept_bits[lane / 32u] & ((1u << (lane % 32u)) - 1u)));
+    for (uint word = 0u; word < lane / 32u; ++word) {
+        before += uint(bitCount(kept_bits[word]));
+    }
+    uint first = group * uint(CULL_GROUP);
+    if (kept) {
+        survivors[first + before] = uvec2(item.x, index);
     }
     if (lane == uint(CULL_GROUP) - 1u) {
-        counts[group] = sums[lane];
+        uint count = before + (kept ? 1u : 0u);
+        commands[group] = DrawCommand(count, 1u, first, 0u);
+        atomicAdd(total, count);
     }
 }

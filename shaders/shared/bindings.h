@@ -11,12 +11,12 @@
 #define BIND_BLADES 0          // BladeRecord[], the set's
 #define BIND_BLADE_TILES 1     // BladeTile[], the tiles around the eye
 #define BIND_CULL_ITEMS 2      // uvec2[]: tile, first blade of a workgroup
-#define BIND_SEGMENTS 3        // uvec2[]: survivors of each workgroup in its own segment: tile, blade
-#define BIND_SEGMENT_COUNTS 4  // uint[]: survivors of each workgroup
-#define BIND_VISIBLE 5         // uvec2[]: survivors of all workgroups, in order
-#define BIND_DRAW_COMMAND 6    // DrawArraysIndirectCommand and the counters
-#define BIND_TERRAIN_BLOCKS 7  // TerrainBlock[]
-#define BIND_FAR_INSTANCES 8   // FarInstance[]
+#define BIND_SURVIVORS 3       // uvec2[]: survivors of each workgroup in its own segment: tile, blade
+#define BIND_DRAW_COMMANDS 4   // DrawCommand[]: one a workgroup
+#define BIND_CULL_TOTAL 5      // uint: survivors of all batches
+#define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
+#define BIND_FAR_INSTANCES 7   // FarInstance[]
+#define BIND_BLOCK_SAMPLES 8    // BlockSample[]: kBlockPosts a block
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
@@ -32,6 +32,7 @@
 #define TEX_RESOLVE_DEPTH 10
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
+#define SAMPLE_GROUP 64        // block samples: vertices a workgroup
 #define CLIP_GROUP 8           // clipmap update: 8 x 8 texels
 
 // Fragment outputs.

@@ -39,7 +39,10 @@ struct FrameConstants {
 static_assert(sizeof(FrameConstants) == 128 + 16 * 9 + 64 + 16 + 256 + 64 + 64 + 112 + 64);
 #endif
 
-// A block of 8 x 8 cells of one clipmap level. 16 bytes.
+SHARED_CONST int kBlockCells = 8;
+SHARED_CONST int kBlockPosts = 81; // (kBlockCells + 1)^2
+
+// A block of kBlockCells^2 cells of one clipmap level. 16 bytes.
 struct TerrainBlock {
     vec4 place; // world x, z of its corner (m); spacing (m); level
 };
@@ -49,14 +52,27 @@ struct BladeTile {
     vec4 place; // world x, z of its corner (m); first blade of its variant; unused
 };
 
+// glMultiDrawArraysIndirect's command. 16 bytes.
+struct DrawCommand {
+    uint vertices;
+    uint instances;
+    uint first;
+    uint base_instance;
+};
+
+// Ground and wind at a vertex of a block: evaluated once, read by the ground, every shell and every slice over it. 32 bytes.
+struct BlockSample {
+    vec4 ground; // world y, grass density, cosine to the sun, tint
+    vec4 motion; // dy/dx, dy/dz of the ground; wind x, z (m/s)
+};
+
 // A shell or a slice of one block. 32 bytes.
 struct FarInstance {
-    vec4 place; // shells: world x, z of the block's corner, cell (m), rest height (m); slices: plane's own coordinate, start
-                // along the plane, cell (m), unused
+    vec4 place;  // rest height (shells) or the plane's own coordinate (slices), world (m); block; unused
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus
-static_assert(sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(FarInstance) == 32);
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 32 && sizeof(FarInstance) == 32);
 #endif
 
 SHARED_END

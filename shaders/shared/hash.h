@@ -12,8 +12,9 @@ SHARED_FN uint hash_pcg(uint x) {
     return (word >> 22u) ^ word;
 }
 
+// One round: enough for places on a grid, and far-tier fragments run it twice each.
 SHARED_FN uint hash_ivec2(ivec2 cell, uint salt) {
-    return hash_pcg(uint(cell.x) + hash_pcg(uint(cell.y) + hash_pcg(salt)));
+    return hash_pcg(uint(cell.x) * 0x9e3779b1u + uint(cell.y) * 0x85ebca77u + salt * 0xc2b2ae3du);
 }
 
 // Uniform in [0, 1), 24 bits: exact in a float.
@@ -22,8 +23,9 @@ SHARED_FN float hash_to_unit(uint h) {
 }
 
 // Which of the set's variants stands on a tile (design: one hash, read by every tier).
+// Multiply and shift, not a division: that is slow on vectors.
 SHARED_FN int tile_variant(ivec2 tile, int variants) {
-    return int(hash_ivec2(tile, 0x5eedu) % uint(variants));
+    return int(((hash_ivec2(tile, 0x5eedu) >> 16u) * uint(variants)) >> 16u);
 }
 
 SHARED_END

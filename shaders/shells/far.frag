@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a shell or slice. Out: the blades of its slab that are this tier's and this level's to show, each decided at its own root
-// by the hand-over that the blade culling calls too.
+// In: a shell or slice. DEPTH_ONLY: finds the blades of its slab that are this tier's and this level's to show, each decided at its
+// own root by the hand-over that the blade culling calls too, and leaves their depth. Without: shades what that depth let
+// through. Twice the vertices, but each pixel is shaded once instead of some forty times.
 #include "lib/grass_surface.glsl"
 #include "shared/blade.h"
 
@@ -43,7 +44,14 @@ bool own_blade(float rank, float seed, vec3 root, float dither) {
     return handover_near(rank, from_eye, band.zw, dither, kHandoverRank);
 }
 
-void main() {
+struct FarTexel {
+    vec3 uv;        // of the id plane
+    float mip;
+    ivec2 cell;     // texel at that mip, over the whole world
+    float dither;
+};
+
+FarTexel find_texel() {
     vec2 place = (rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
     ivec2 tile = ivec2(floor(place)) + frame.patch_tile.xy;
     int layer = image.x + tile_variant(tile, frame.patch_tile.z) * image.y;
@@ -58,28 +66,33 @@ void main() {
     vec2 size = vec2(textureSize(far_images, 0).xy);
     float texel_m = frame.patch_grid.z / size.x;
     float mip = floor(max(log2(pixel_m / texel_m) + kMipBias + dither, 0.0));
-    vec4 id = textureLod(far_images, vec3(uv, layer), mip);
-    if (id.r == 0.0) {
-        discard;
-    }
-    // A texel is shown whole or not, with its coverage as the chance: a hash of the texel, so that it stays put.
-    ivec2 texel = ivec2(floor(uv * size * exp2(-mip)));
-    if (id.r < hash_to_unit(hash_ivec2(texel, uint(layer)))) {
-        discard;
-    }
-    vec4 shape = textureLod(far_images, vec3(uv, layer + kPlaneShape), mip);
+    return FarTexel(vec3(uv, layer), mip, ivec2(floor(uv * size * exp2(-mip))), dither);
+}
+
+#ifdef DEPTH_ONLY
+void main() {
+    FarTexel texel = find_texel();
+    vec4 id = textureLod(far_images, texel.uv, texel.mip);
+    vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
     vec2 offset = decode_offset(shape.ba, frame.grass.x);
     vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope, offset), rest.z + offset.y);
-    float rank = unorm8_to_unit(id.g);
-    float seed = unorm8_to_unit(id.b);
-    if (!own_blade(rank, seed, root, dither)) {
+    // A texel is shown whole or not, with its coverage as the chance: a hash of the texel, so that it stays put.
+    float chance = hash_to_unit(hash_ivec2(texel.cell, uint(texel.uv.z)));
+    if (id.r <= chance || !own_blade(unorm8_to_unit(id.g), unorm8_to_unit(id.b), root, texel.dither)) {
         discard;
     }
-    vec3 tangent = decode_tangent(shape.rg);
+}
+#else
+void main() {
+    FarTexel texel = find_texel();
+    vec4 id = textureLod(far_images, texel.uv, texel.mip);
+    vec3 tangent = decode_tangent(textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip).rg);
 #ifdef SLICES
     float tier = image.z == kAxisX ? kTierSliceX : kTierSliceZ;
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, rest.y / frame.patch_grid.w, ground_here.z, ground_here.w, tier));
+    write_grass(GrassSample(world, tangent, tangent, unorm8_to_unit(id.g), unorm8_to_unit(id.b), id.a, rest.y / frame.patch_grid.w,
+                            ground_here.z, ground_here.w, tier));
 }
+#endif

@@ -1,37 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: shells or slices of a block (instances). Out: their vertices, bent by the closed form of B3 at the wind of their place.
 // Texture coordinates stay those of the rest pose.
-#include "lib/ground.glsl"
-#include "lib/wind.glsl"
+#include "lib/frame.glsl"
 #include "shared/bend.h"
 
 layout(std430, binding = BIND_FAR_INSTANCES) readonly buffer Instances { FarInstance instances[]; };
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
+layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
+uniform float rows; // of a slice's strip
 
 out vec3 world;
 out vec3 rest;        // x, z at rest (world), height above the ground at rest
 out vec4 ground_here; // height of the ground (world y), grass density, cosine to the sun, tint
 out vec2 ground_slope; // dy/dx, dy/dz
 flat out ivec4 image;
+invariant gl_Position; // the shading pass must meet the depth pass's depth
 
 void main() {
     FarInstance instance = instances[gl_InstanceID];
-    vec2 cell = vec2(gl_VertexID % 9, gl_VertexID / 9);
-    vec2 xz;
-    float y;
+    int block_index = int(instance.place.y);
+    TerrainBlock block = blocks[block_index];
+    int first = block_index * kBlockPosts;
+    int column = gl_VertexID % (kBlockCells + 1);
+    int row = gl_VertexID / (kBlockCells + 1);
 #ifdef SLICES
-    float along = instance.place.y + cell.x * instance.place.z;
-    xz = instance.image.z == kAxisX ? vec2(instance.place.x, along) : vec2(along, instance.place.x);
-    y = cell.y / 3.0 * frame.patch_grid.w;
+    // Between two lines of the block's grid: a slice meets the very surface that the ground's mesh has there.
+    bool across_x = instance.image.z == kAxisX;
+    vec2 corner = across_x ? block.place.xy : block.place.yx;
+    float line = clamp((instance.place.x - corner.x) / block.place.z, 0.0, float(kBlockCells) - 1e-3);
+    int line_index = int(line);
+    int one = across_x ? line_index + column * (kBlockCells + 1) : column + line_index * (kBlockCells + 1);
+    int two = one + (across_x ? 1 : kBlockCells + 1);
+    BlockSample a = samples[first + one];
+    BlockSample b = samples[first + two];
+    vec4 ground = mix(a.ground, b.ground, line - float(line_index));
+    vec4 motion = mix(a.motion, b.motion, line - float(line_index));
+    float along = corner.y + float(column) * block.place.z;
+    vec2 xz = across_x ? vec2(instance.place.x, along) : vec2(along, instance.place.x);
+    float y = float(row) / rows * frame.patch_grid.w;
 #else
-    xz = instance.place.xy + cell * instance.place.z;
-    y = instance.place.w;
+    BlockSample here = samples[first + gl_VertexID];
+    vec4 ground = here.ground;
+    vec4 motion = here.motion;
+    vec2 xz = block.place.xy + vec2(column, row) * block.place.z;
+    float y = instance.place.x;
 #endif
-    Ground ground = ground_surface(xz);
-    float base = ground_at(xz);
     rest = vec3(xz.x, y, xz.y);
-    world = vec3(xz.x, base + y, xz.y) + bend_offset(y, frame.patch_grid.w, wind_at(xz), frame.wind.mean.w);
-    ground_here = vec4(base, ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint);
-    ground_slope = -ground.normal.xz / max(ground.normal.y, 0.1);
+    world = vec3(xz.x, ground.x + y, xz.y) + bend_offset(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
+    ground_here = ground;
+    ground_slope = motion.xy;
     image = instance.image;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: blocks of the clipmap (instances). Out: the ground's vertices, anchor-relative.
-#include "lib/ground.glsl"
+// In: blocks of the clipmap (instances) and their samples. Out: the ground's vertices, anchor-relative.
+#include "lib/frame.glsl"
 
 layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
+layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
 
 out vec3 world;
 
 void main() {
     TerrainBlock block = blocks[gl_InstanceID];
-    vec2 cell = vec2(gl_VertexID % 9, gl_VertexID / 9);
+    vec2 cell = vec2(gl_VertexID % (kBlockCells + 1), gl_VertexID / (kBlockCells + 1));
     vec2 xz = block.place.xy + cell * block.place.z;
-    world = vec3(xz.x, ground_at(xz), xz.y);
+    world = vec3(xz.x, samples[gl_InstanceID * kBlockPosts + gl_VertexID].ground.x, xz.y);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -9,19 +9,9 @@
 
 namespace sward::blades {
 
-namespace {
-/// DrawArraysIndirectCommand, then a running total of survivors; 32 bytes as in cull_compact.comp.
-struct Command {
-    std::uint32_t vertices, instances, first, base;
-    std::uint32_t total, pad0, pad1, pad2;
-};
-static_assert(sizeof(Command) == 32);
-} // namespace
-
 CullPass::CullPass()
-    : cull_("cull blades", {"blades/cull.comp"}), compact_("compact blades", {"blades/cull_compact.comp"}),
-      segments_(kBatch * CULL_GROUP * sizeof(glm::uvec2)), counts_(kBatch * sizeof(std::uint32_t)),
-      visible_(kBatch * CULL_GROUP * sizeof(glm::uvec2)), command_(sizeof(Command)) {}
+    : program_("cull blades", {"blades/cull.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
+      commands_(kBatch * sizeof(shared::DrawCommand)), total_(sizeof(std::uint32_t)) {}
 
 void CullPass::upload(const TileList& list) {
     items_count_ = list.items.size();
@@ -29,37 +19,27 @@ void CullPass::upload(const TileList& list) {
     tiles_.upload(list.tiles.data(), list.tiles.size() * sizeof(shared::BladeTile));
     items_.reserve(list.items.size() * sizeof(glm::uvec2));
     items_.upload(list.items.data(), list.items.size() * sizeof(glm::uvec2));
-    const Command empty{0, 1, 0, 0, 0, 0, 0, 0};
-    command_.upload(&empty, sizeof(empty));
+    total_.clear_to_zero();
 }
 
 void CullPass::execute(std::size_t batch) {
     const std::size_t first = batch * kBatch;
-    const auto groups = static_cast<GLuint>(std::min(kBatch, items_count_ - first));
+    command_count_ = static_cast<int>(std::min(kBatch, items_count_ - first));
     tiles_.bind_storage(BIND_BLADE_TILES);
     items_.bind_storage(BIND_CULL_ITEMS);
-    segments_.bind_storage(BIND_SEGMENTS);
-    counts_.bind_storage(BIND_SEGMENT_COUNTS);
-    visible_.bind_storage(BIND_VISIBLE);
-    command_.bind_storage(BIND_DRAW_COMMAND);
-    cull_.use();
-    cull_.set("first_item", static_cast<int>(first));
-    glDispatchCompute(groups, 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    compact_.use();
-    glDispatchCompute(groups, 1, 1);
+    survivors_.bind_storage(BIND_SURVIVORS);
+    commands_.bind_storage(BIND_DRAW_COMMANDS);
+    total_.bind_storage(BIND_CULL_TOTAL);
+    program_.use();
+    program_.set("first_item", static_cast<int>(first));
+    glDispatchCompute(static_cast<GLuint>(command_count_), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
 std::uint64_t CullPass::drawn() const {
-    Command command{};
-    command_.read(&command, sizeof(command));
-    return command.total;
-}
-
-void CullPass::reload() {
-    cull_.reload();
-    compact_.reload();
+    std::uint32_t total = 0;
+    total_.read(&total, sizeof(total));
+    return total;
 }
 
 } // namespace sward::blades

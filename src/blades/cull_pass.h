@@ -10,8 +10,9 @@
 
 namespace sward::blades {
 
-/// Culls blades on the GPU (frustum, density, hand-over) and writes the survivors, in a fixed order, for an indirect draw.
-/// A workgroup writes its survivors to its own segment; a second dispatch closes the gaps: no atomics, the same order each run.
+/// Culls blades on the GPU (frustum, density, hand-over) into an indirect draw. A workgroup writes its survivors to its own segment
+/// and its own draw command: the same order each run, and no global atomics but one count. Small draws matter in software too:
+/// llvmpipe's clipper goes over all vertices of a draw again and again once one of them is clipped.
 class CullPass {
 public:
     /// Workgroups a batch; a long list is culled and drawn batch by batch, which bounds memory to 2 MiB * kBatch / 2048.
@@ -20,18 +21,20 @@ public:
     CullPass();
     void upload(const TileList& list);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
-    /// Culls one batch; then the visible list and the draw command are bound and ready.
+    /// Culls one batch; then its survivors and draw commands are ready.
     void execute(std::size_t batch);
     /// Survivors of all batches since upload(). Waits for the GPU.
     [[nodiscard]] std::uint64_t drawn() const;
-    [[nodiscard]] const gl::Buffer& command() const { return command_; }
-    [[nodiscard]] const gl::Buffer& visible() const { return visible_; }
-    void reload();
+    [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
+    [[nodiscard]] int command_count() const { return command_count_; }
+    [[nodiscard]] const gl::Buffer& survivors() const { return survivors_; }
+    void reload() { program_.reload(); }
 
 private:
-    gl::Program cull_, compact_;
-    gl::Buffer tiles_, items_, segments_, counts_, visible_, command_;
+    gl::Program program_;
+    gl::Buffer tiles_, items_, survivors_, commands_, total_;
     std::size_t items_count_ = 0;
+    int command_count_ = 0;
 };
 
 } // namespace sward::blades

@@ -18,10 +18,10 @@ DrawPass::~DrawPass() { glDeleteVertexArrays(1, &vertex_array_); }
 void DrawPass::execute(const CullPass& culled) {
     program_.use();
     glBindVertexArray(vertex_array_);
-    culled.visible().bind_storage(BIND_VISIBLE);
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, culled.command().id());
+    culled.survivors().bind_storage(BIND_SURVIVORS);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, culled.commands().id());
     glPatchParameteri(GL_PATCH_VERTICES, 1);
-    glDrawArraysIndirect(GL_PATCHES, nullptr);
+    glMultiDrawArraysIndirect(GL_PATCHES, nullptr, culled.command_count(), 0);
 }
 
 } // namespace sward::blades

@@ -69,11 +69,16 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
     const auto far = shells::select_far(world.grass, blocks, shot.bands,
                                         {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level});
 
+    {
+        const gl::PassScope pass(timers, "block samples");
+        block_samples.execute(blocks);
+    }
+
     targets.bind_scene();
     set_gl_state();
     if (settings.terrain) {
         const gl::PassScope pass(timers, "terrain");
-        draw.terrain.execute(blocks, block_mesh);
+        draw.terrain.execute(static_cast<int>(blocks.size()), block_mesh);
     }
     if (draws_blades(settings)) {
         draw_blades(settings, shot);

@@ -53,6 +53,7 @@ struct Renderer::Impl {
     shells::FarTextures far_textures;
     shells::FarAppearance far_appearance;
     terrain::BlockMesh block_mesh;
+    terrain::BlockSamples block_samples;
     gl::Buffer blade_records, frame_buffer;
     blades::CullPass cull;
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;

@@ -121,7 +121,7 @@ std::vector<std::string> Renderer::reload_shaders() {
             passes->reload(failures);
         }
     }
-    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }}) {
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.block_samples.reload(); }}) {
         try {
             reload(*impl_);
         } catch (const base::Error& error) {

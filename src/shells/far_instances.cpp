@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "terrain/clipmap.h"
 
 namespace sward::shells {
 
@@ -19,7 +18,7 @@ struct Span {
     float nearest, farthest;
 };
 
-float side_of(const VisibleBlock& block) { return block.cell * terrain::Clipmap::kBlockCells; }
+float side_of(const VisibleBlock& block) { return block.cell * shared::kBlockCells; }
 
 Span distances(const VisibleBlock& block, glm::vec3 eye, float canopy) {
     const glm::vec3 low(block.corner.x, block.low, block.corner.y);
@@ -53,17 +52,23 @@ float largest_share(const VisibleBlock& block, glm::vec3 eye, int axis) {
     return low[1 - axis] < 0 && high[1 - axis] > 0 ? 1.0f : largest;
 }
 
-void add_shells(std::vector<shared::FarInstance>& out, const VisibleBlock& block, const grass::GrassSet& set, int k) {
+void add_shells(std::vector<shared::FarInstance>& out, std::size_t block, const grass::GrassSet& set, int k) {
     const int count = set.levels[static_cast<std::size_t>(k)].layer_count;
     for (int i = count - 1; i >= 0; --i) {
         const float y = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * set.canopy_m;
-        out.push_back({{block.corner.x, block.corner.y, block.cell, y},
+        out.push_back({{y, block, 0, 0},
                        {shared::layer_index(0, i, count, shared::kPlaneId), count * shared::kPlanes, 0, k}});
     }
 }
 
-void add_slices(std::vector<shared::FarInstance>& out, const VisibleBlock& block, const grass::GrassSet& set, int k,
+struct BlockPlace {
+    const VisibleBlock& block;
+    std::size_t index;
+};
+
+void add_slices(std::vector<shared::FarInstance>& out, const BlockPlace& at, const grass::GrassSet& set, int k,
                 const FarQuery& query) {
+    const VisibleBlock& block = at.block;
     const int count = set.levels[static_cast<std::size_t>(k)].slice_count;
     const double gap = static_cast<double>(set.side_m) / count;
     for (int axis = 0; axis < 2; ++axis) {
@@ -79,7 +84,7 @@ void add_slices(std::vector<shared::FarInstance>& out, const VisibleBlock& block
             const int m = rising ? first + n : last - n;
             const int slice = ((m % count) + count) % count;
             const auto plane = static_cast<float>((m + 0.5) * gap - query.patch_offset[axis]);
-            out.push_back({{plane, block.corner[1 - axis], block.cell, 0},
+            out.push_back({{plane, at.index, 0, 0},
                            {shared::slice_index(0, axis, slice, count, shared::kPlaneId), 2 * count * shared::kPlanes, axis, k}});
         }
     }
@@ -91,12 +96,13 @@ FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& 
                    const FarQuery& query) {
     FarList list;
     const int levels = static_cast<int>(set.levels.size());
-    for (const VisibleBlock& block : blocks) {
+    for (std::size_t index = 0; index < blocks.size(); ++index) {
+        const VisibleBlock& block = blocks[index];
         const Span span = distances(block, query.lod_eye, set.canopy_m);
         for (int k = 0; k < levels; ++k) {
             if (level_shows(bands, query, k, span, levels)) {
-                add_shells(list.shells[static_cast<std::size_t>(k)], block, set, k);
-                add_slices(list.slices[static_cast<std::size_t>(k)], block, set, k, query);
+                add_shells(list.shells[static_cast<std::size_t>(k)], index, set, k);
+                add_slices(list.slices[static_cast<std::size_t>(k)], {block, index}, set, k, query);
             }
         }
     }

@@ -9,16 +9,13 @@ namespace sward::shells {
 
 namespace {
 
-constexpr int kColumns = terrain::Clipmap::kBlockCells; // of a slice's strip
-constexpr int kRows = 3;                                // enough for its bend; each costs 9 vertices a slice
+constexpr int kColumns = shared::kBlockCells; // of a slice's strip
+constexpr int kRows = 3;                      // of level 0's strips: enough for their bend; each costs 9 vertices a slice
 
-std::vector<std::string> defines(FarPass::Family family, bool aov) {
-    std::vector<std::string> out;
+std::vector<std::string> defines(FarPass::Family family, const char* variant) {
+    std::vector<std::string> out{variant};
     if (family == FarPass::Family::kSlices) {
         out.emplace_back("SLICES");
-    }
-    if (aov) {
-        out.emplace_back("AOV");
     }
     return out;
 }
@@ -39,7 +36,8 @@ gl::Buffer strip_indices() {
 } // namespace
 
 FarPass::FarPass(Family family, bool aov)
-    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov)),
+    : family_(family), depth_program_(family == Family::kShells ? "shells depth" : "slices depth", {"shells/far.vert", "shells/far.frag"}, defines(family, "DEPTH_ONLY")),
+      program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov ? "AOV" : "NO_AOV")),
       strip_(strip_indices()) {
     glCreateVertexArrays(1, &strip_array_);
     glVertexArrayElementBuffer(strip_array_, strip_.id());
@@ -51,27 +49,47 @@ FarPass::~FarPass() {
     glDeleteQueries(1, &query_);
 }
 
-void FarPass::execute(const Inputs& inputs) {
-    program_.use();
-    glBeginQuery(GL_SAMPLES_PASSED, query_);
-    for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
-        const auto& list = inputs.instances[k];
-        if (list.empty()) {
-            continue;
-        }
-        const FarTextures::Level& level = inputs.textures.levels()[k];
-        (family_ == Family::kShells ? level.layers : level.slices).bind(TEX_FAR_IMAGES);
-        instances_.reserve(list.size() * sizeof(shared::FarInstance));
-        instances_.upload(list.data(), list.size() * sizeof(shared::FarInstance));
-        instances_.bind_storage(BIND_FAR_INSTANCES);
-        if (family_ == Family::kShells) {
-            inputs.mesh.draw(static_cast<int>(list.size()));
-        } else {
-            glBindVertexArray(strip_array_);
-            glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * kRows, GL_UNSIGNED_SHORT, nullptr, static_cast<GLsizei>(list.size()));
-        }
+void FarPass::draw_level(const gl::Program& program, std::size_t k, const Inputs& inputs) const {
+    const auto instances = static_cast<GLsizei>(inputs.instances[k].size());
+    const FarTextures::Level& level = inputs.textures.levels()[k];
+    instances_[k].bind_storage(BIND_FAR_INSTANCES);
+    if (family_ == Family::kShells) {
+        level.layers.bind(TEX_FAR_IMAGES);
+        inputs.mesh.draw(instances);
+    } else {
+        level.slices.bind(TEX_FAR_IMAGES);
+        glBindVertexArray(strip_array_);
+        const int rows = k == 0 ? kRows : 1; // further off, a slice is some pixels tall
+        program.set("rows", static_cast<float>(rows));
+        glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * rows, GL_UNSIGNED_SHORT, nullptr, instances);
     }
+}
+
+void FarPass::execute(const Inputs& inputs) {
+    const auto draw_levels = [&](const gl::Program& program) {
+        program.use();
+        for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
+            if (!inputs.instances[k].empty()) {
+                draw_level(program, k, inputs);
+            }
+        }
+    };
+    for (std::size_t k = 0; k < inputs.instances.size(); ++k) {
+        const std::size_t bytes = inputs.instances[k].size() * sizeof(shared::FarInstance);
+        instances_[k].reserve(bytes);
+        instances_[k].upload(inputs.instances[k].data(), bytes);
+    }
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_levels(depth_program_);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    glBeginQuery(GL_SAMPLES_PASSED, query_);
+    draw_levels(program_);
     glEndQuery(GL_SAMPLES_PASSED);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
 }
 
 std::uint64_t FarPass::samples_passed() const {

@@ -11,8 +11,8 @@
 
 namespace sward::shells {
 
-/// Draws one family of the far tier: the shells, or the slices across x and z. Before: frame constants and clipmap are bound,
-/// the ground and the blades are drawn. One program, compiled for each family.
+/// Draws one family of the far tier: the shells, or the slices across x and z. Before: frame constants and block samples are bound,
+/// the ground and the blades are drawn. First the depth of what each image shows, then the light of what is left in sight.
 class FarPass {
 public:
     enum class Family { kShells, kSlices };
@@ -29,12 +29,17 @@ public:
     void execute(const Inputs& inputs);
     /// Samples that passed every test in the last execute(); waits for the GPU.
     [[nodiscard]] std::uint64_t samples_passed() const;
-    void reload() { program_.reload(); }
+    void reload() {
+        depth_program_.reload();
+        program_.reload();
+    }
 
 private:
     Family family_;
-    gl::Program program_;
-    gl::Buffer instances_, strip_;
+    void draw_level(const gl::Program& program, std::size_t k, const Inputs& inputs) const;
+    gl::Program depth_program_, program_;
+    std::array<gl::Buffer, shared::kMaxFarLevels> instances_;
+    gl::Buffer strip_;
     std::uint32_t strip_array_ = 0;
     std::uint32_t query_ = 0;
 };

@@ -19,8 +19,7 @@ namespace sward::terrain {
 class Clipmap {
 public:
     static constexpr double kFinest_m = 0.5;
-    static constexpr int kBlockCells = 8;   ///< a window moves by two blocks, so that holes fall on blocks
-    static constexpr int kSnapCells = 16;
+    static constexpr int kSnapCells = 2 * shared::kBlockCells; ///< so that the hole for a finer level falls on blocks
 
     /// Level windows: world index of the first post.
     struct Window {

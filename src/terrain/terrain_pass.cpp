@@ -13,7 +13,7 @@ namespace sward::terrain {
 
 namespace {
 
-constexpr int kBlocks = shared::kClipCells / Clipmap::kBlockCells; // a side
+constexpr int kBlocks = shared::kClipCells / shared::kBlockCells; // a side
 constexpr int kBoundedLevels = 5; // finer blocks get bounds of their own; coarser ones span whole hills anyway
 
 /// Does the next finer level's window cover block (i, j) of `level`?
@@ -22,7 +22,7 @@ bool in_hole(const Clipmap& clipmap, int level, int i, int j) {
         return false;
     }
     const glm::ivec2 finer = clipmap.window(level - 1).first / 2; // even by the snap
-    const glm::ivec2 first = clipmap.window(level).first + glm::ivec2(i, j) * Clipmap::kBlockCells;
+    const glm::ivec2 first = clipmap.window(level).first + glm::ivec2(i, j) * shared::kBlockCells;
     const glm::ivec2 offset = first - finer;
     return offset.x >= 0 && offset.y >= 0 && offset.x < shared::kClipCells / 2 && offset.y < shared::kClipCells / 2;
 }
@@ -45,14 +45,14 @@ std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& 
     std::vector<VisibleBlock> blocks;
     for (int level = 0; level < clipmap.levels(); ++level) {
         const double cell = Clipmap::spacing(level);
-        const double side = cell * Clipmap::kBlockCells;
+        const double side = cell * shared::kBlockCells;
         for (int n = 0; n < kBlocks * kBlocks; ++n) {
             const int i = n % kBlocks;
             const int j = n / kBlocks;
             if (in_hole(clipmap, level, i, j)) {
                 continue;
             }
-            const glm::dvec2 corner = glm::dvec2(clipmap.window(level).first + glm::ivec2(i, j) * Clipmap::kBlockCells) * cell;
+            const glm::dvec2 corner = glm::dvec2(clipmap.window(level).first + glm::ivec2(i, j) * shared::kBlockCells) * cell;
             const glm::vec2 place(corner - glm::dvec2(anchor.x, anchor.z));
             const auto seen = [&](glm::dvec2 range) {
                 return frustum.may_see({place.x, range.x - anchor.y, place.y},
@@ -76,7 +76,7 @@ std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& 
 }
 
 BlockMesh::BlockMesh() {
-    constexpr int n = Clipmap::kBlockCells;
+    constexpr int n = shared::kBlockCells;
     std::vector<std::uint16_t> indices;
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
@@ -95,26 +95,38 @@ BlockMesh::BlockMesh() {
 BlockMesh::~BlockMesh() { glDeleteVertexArrays(1, &vertex_array_); }
 
 void BlockMesh::draw(int instances) const {
-    constexpr int kIndices = 6 * Clipmap::kBlockCells * Clipmap::kBlockCells;
+    constexpr int kIndices = 6 * shared::kBlockCells * shared::kBlockCells;
     glBindVertexArray(vertex_array_);
     glDrawElementsInstanced(GL_TRIANGLES, kIndices, GL_UNSIGNED_SHORT, nullptr, instances);
+}
+
+BlockSamples::BlockSamples() : program_("block samples", {"terrain/block_samples.comp"}) {}
+
+void BlockSamples::execute(const std::vector<VisibleBlock>& blocks) {
+    std::vector<shared::TerrainBlock> places;
+    places.reserve(blocks.size());
+    for (const VisibleBlock& block : blocks) {
+        places.push_back({{block.corner.x, block.corner.y, block.cell, block.level}});
+    }
+    blocks_.reserve(places.size() * sizeof(shared::TerrainBlock));
+    blocks_.upload(places.data(), places.size() * sizeof(shared::TerrainBlock));
+    const std::size_t count = blocks.size() * shared::kBlockPosts;
+    samples_.reserve(count * sizeof(shared::BlockSample));
+    blocks_.bind_storage(BIND_TERRAIN_BLOCKS);
+    samples_.bind_storage(BIND_BLOCK_SAMPLES);
+    program_.use();
+    program_.set("sample_count", static_cast<int>(count));
+    glDispatchCompute(static_cast<GLuint>((count + SAMPLE_GROUP - 1) / SAMPLE_GROUP), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 TerrainPass::TerrainPass(bool aov)
     : program_("terrain", {"terrain/terrain.vert", "terrain/terrain.frag"}, aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {}
 
-void TerrainPass::execute(const std::vector<VisibleBlock>& blocks, const BlockMesh& mesh) {
-    std::vector<shared::TerrainBlock> instances;
-    instances.reserve(blocks.size());
-    for (const VisibleBlock& block : blocks) {
-        instances.push_back({{block.corner.x, block.corner.y, block.cell, block.level}});
-    }
-    blocks_.reserve(instances.size() * sizeof(shared::TerrainBlock));
-    blocks_.upload(instances.data(), instances.size() * sizeof(shared::TerrainBlock));
-    blocks_.bind_storage(BIND_TERRAIN_BLOCKS);
+void TerrainPass::execute(int blocks, const BlockMesh& mesh) {
     program_.use();
     glEnable(GL_CULL_FACE);
-    mesh.draw(static_cast<int>(instances.size()));
+    mesh.draw(blocks);
     glDisable(GL_CULL_FACE);
 }
 

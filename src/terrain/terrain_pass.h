@@ -40,16 +40,28 @@ private:
     std::uint32_t vertex_array_ = 0;
 };
 
-/// Draws the ground. Before: frame constants, clipmap and far appearance are bound. After: depth and colour hold it.
-class TerrainPass {
+/// Evaluates ground and wind once at every vertex of the visible blocks. Before: frame constants and clipmap are bound. After:
+/// blocks and samples are bound for the ground, the shells and the slices.
+class BlockSamples {
 public:
-    explicit TerrainPass(bool aov);
-    void execute(const std::vector<VisibleBlock>& blocks, const BlockMesh& mesh);
+    BlockSamples();
+    void execute(const std::vector<VisibleBlock>& blocks);
     void reload() { program_.reload(); }
 
 private:
     gl::Program program_;
-    gl::Buffer blocks_;
+    gl::Buffer blocks_, samples_;
+};
+
+/// Draws the ground. Before: frame constants, clipmap, block samples and far appearance are bound.
+class TerrainPass {
+public:
+    explicit TerrainPass(bool aov);
+    void execute(int blocks, const BlockMesh& mesh);
+    void reload() { program_.reload(); }
+
+private:
+    gl::Program program_;
 };
 
 } // namespace sward::terrain

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: visible blocks. Out: ground and wind at each of their vertices.
+#include "lib/ground.glsl"
+#include "lib/wind.glsl"
+
+layout(local_size_x = SAMPLE_GROUP) in;
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
+layout(std430, binding = BIND_BLOCK_SAMPLES) writeonly buffer Samples { BlockSample samples[]; };
+uniform int sample_count;
+
+void main() {
+    int index = int(gl_GlobalInvocationID.x);
+    if (index >= sample_count) {
+        return;
+    }
+    TerrainBlock block = blocks[index / kBlockPosts];
+    int post = index % kBlockPosts;
+    vec2 xz = block.place.xy + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.place.z;
+    Ground ground = ground_surface(xz);
+    vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
+    samples[index] = BlockSample(vec4(ground_at(xz), ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint),
+                                 vec4(slope, wind_at(xz)));
+}
