@@ -5,6 +5,7 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <epoxy/gl.h>
 #include <imgui.h>
 
 #include "app/window.h"
@@ -174,6 +175,7 @@ void Panel::draw(render::FrameSettings& settings, bool& running, const PanelFact
         draw_help(&help);
     draw_messages(facts.messages);
     ImGui::Render();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0); // ImGui draws wherever the renderer left off
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

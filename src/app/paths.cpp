@@ -18,12 +18,19 @@ fs::path from_environment(const char* name) {
     return path.is_absolute() ? path : fs::path();
 }
 
+fs::path installed_directory() {
+    return base::executable_directory().parent_path() / "share" / "sward";
+}
+
+bool is_installed() {
+    std::error_code ignored;
+    return fs::is_directory(installed_directory(), ignored);
+}
+
 } // namespace
 
 fs::path data_directory() {
-    const fs::path installed = base::executable_directory().parent_path() / "share" / "sward";
-    std::error_code ignored;
-    return fs::is_directory(installed, ignored) ? installed : fs::path(SWARD_SOURCE_DIR);
+    return is_installed() ? installed_directory() : fs::path(SWARD_SOURCE_DIR);
 }
 
 fs::path default_scene() {
@@ -31,7 +38,8 @@ fs::path default_scene() {
 }
 
 fs::path presets_directory() {
-    return data_directory() / "texgen" / "presets";
+    return is_installed() ? installed_directory() / "presets"
+                          : fs::path(SWARD_SOURCE_DIR) / "texgen" / "presets";
 }
 
 fs::path texgen_program() {

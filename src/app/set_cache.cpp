@@ -17,6 +17,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "grass/set_files.h"
 
 namespace sward::app {
 namespace {
@@ -25,7 +26,6 @@ namespace fs = std::filesystem;
 using base::ExitCode;
 
 constexpr std::uint64_t kPresetLimit = std::uint64_t{1} << 20;
-constexpr int kCacheVersion = 1; // part of the key: raised with the format of a set
 
 /// One baker at a time: a second process waits and then finds the set. Held until the end of the
 /// scope.
@@ -108,7 +108,7 @@ grass::GrassSet load_grass(const scene::Scene& scene) {
         return grass::read_grass_set(place.path);
     const std::string text = base::read_text(place.path, kPresetLimit);
     const fs::path cache = prepare_cache();
-    const std::string key = base::sha256_hex(fmt::format("{}\n{}", kCacheVersion, text));
+    const std::string key = base::sha256_hex(fmt::format("{}\n{}", grass::kSetFormatVersion, text));
     const fs::path set = cache / key;
     if (auto cached = read_cached(set, false))
         return std::move(*cached);

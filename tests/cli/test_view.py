@@ -49,13 +49,20 @@ class Display:
         self.server.terminate()
         self.server.wait()
 
-    def colours(self):
-        """How many colours the screen shows, from Xvfb's own XWD file."""
+    def pixels(self):
+        """The screen, from Xvfb's own XWD file."""
         data = (self.folder / "Xvfb_screen0").read_bytes()
         header = struct.unpack(">25I", data[:100])
         begin = header[0] + 12 * header[19]
         pixels = data[begin:begin + header[12] * header[5]]
-        return len(set(struct.unpack(f"<{len(pixels) // 4}I", pixels)))
+        return [pixel & 0xffffff for pixel in struct.unpack(f"<{len(pixels) // 4}I", pixels)]
+
+    def colours(self):
+        return len(set(self.pixels()))
+
+    def has_panel(self):
+        """Its letters are pure white, which no grass and no sky is."""
+        return self.pixels().count(0xffffff) > 100
 
     def windows(self):
         """Mapped top-level windows."""
@@ -115,7 +122,11 @@ class View(CliCase):
     def test_flight(self):
         child = self.view("--camera", "3,2,1,45,-10")
         self.wait_for(lambda: self.display.colours() > 100, child)
+        self.wait_for(self.display.has_panel, child)
         window = self.display.windows()[-1]
+        self.display.tap(window, "t")
+        self.wait_for(lambda: not self.display.has_panel(), child)
+        self.assertGreater(self.display.colours(), 100)
         for width, height in ((200, 100), (1, 1), (WIDTH, HEIGHT), (3000, 20), (300, 200)):
             self.display.resize(window, width, height)
         for key in "khpr":

@@ -42,7 +42,7 @@ HOUSES = {
     "backends/imgui": {"app"},
     "CLI/": {"app", "texgen"},
     "tiny_gltf": {"assets", "grass"},
-    "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "lod", "render"},
+    "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "lod", "render", "app"},
     "toml++/": {"scene", "texgen"},
 }
 SUFFIXES = {".h", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom"}
