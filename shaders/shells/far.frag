@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a shell or slice. DEPTH_ONLY: finds the blades of its slab that are this tier's and this level's to show, each decided at its
-// own root by the hand-over that the blade culling calls too, and leaves their depth. Without: shades what that depth let
-// through. Twice the vertices, but each pixel is shaded once instead of some forty times.
+// In: a shell or slice. Out: the blades of its slab that are this tier's and this level's to show, each decided at its own root by
+// the hand-over that the blade culling calls too.
 #include "lib/grass_surface.glsl"
 #include "shared/blade.h"
 
@@ -69,30 +68,24 @@ FarTexel find_texel() {
     return FarTexel(vec3(uv, layer), mip, ivec2(floor(uv * size * exp2(-mip))), dither);
 }
 
-#ifdef DEPTH_ONLY
 void main() {
     FarTexel texel = find_texel();
     vec4 id = textureLod(far_images, texel.uv, texel.mip);
     vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
     vec2 offset = decode_offset(shape.ba, frame.grass.x);
     vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope, offset), rest.z + offset.y);
+    float rank = unorm8_to_unit(id.g);
+    float seed = unorm8_to_unit(id.b);
     // A texel is shown whole or not, with its coverage as the chance: a hash of the texel, so that it stays put.
     float chance = hash_to_unit(hash_ivec2(texel.cell, uint(texel.uv.z)));
-    if (id.r <= chance || !own_blade(unorm8_to_unit(id.g), unorm8_to_unit(id.b), root, texel.dither)) {
+    if (id.r <= chance || !own_blade(rank, seed, root, texel.dither)) {
         discard;
     }
-}
-#else
-void main() {
-    FarTexel texel = find_texel();
-    vec4 id = textureLod(far_images, texel.uv, texel.mip);
-    vec3 tangent = decode_tangent(textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip).rg);
+    vec3 tangent = decode_tangent(shape.rg);
 #ifdef SLICES
     float tier = image.z == kAxisX ? kTierSliceX : kTierSliceZ;
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, unorm8_to_unit(id.g), unorm8_to_unit(id.b), id.a, rest.y / frame.patch_grid.w,
-                            ground_here.z, ground_here.w, tier));
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, rest.y / frame.patch_grid.w, ground_here.z, ground_here.w, tier));
 }
-#endif

@@ -14,7 +14,6 @@ out vec3 rest;        // x, z at rest (world), height above the ground at rest
 out vec4 ground_here; // height of the ground (world y), grass density, cosine to the sun, tint
 out vec2 ground_slope; // dy/dx, dy/dz
 flat out ivec4 image;
-invariant gl_Position; // the shading pass must meet the depth pass's depth
 
 void main() {
     FarInstance instance = instances[gl_InstanceID];

@@ -12,10 +12,13 @@ namespace {
 constexpr int kColumns = shared::kBlockCells; // of a slice's strip
 constexpr int kRows = 3;                      // of level 0's strips: enough for their bend; each costs 9 vertices a slice
 
-std::vector<std::string> defines(FarPass::Family family, const char* variant) {
-    std::vector<std::string> out{variant};
+std::vector<std::string> defines(FarPass::Family family, bool aov) {
+    std::vector<std::string> out;
     if (family == FarPass::Family::kSlices) {
         out.emplace_back("SLICES");
+    }
+    if (aov) {
+        out.emplace_back("AOV");
     }
     return out;
 }
@@ -36,8 +39,7 @@ gl::Buffer strip_indices() {
 } // namespace
 
 FarPass::FarPass(Family family, bool aov)
-    : family_(family), depth_program_(family == Family::kShells ? "shells depth" : "slices depth", {"shells/far.vert", "shells/far.frag"}, defines(family, "DEPTH_ONLY")),
-      program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov ? "AOV" : "NO_AOV")),
+    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov)),
       strip_(strip_indices()) {
     glCreateVertexArrays(1, &strip_array_);
     glVertexArrayElementBuffer(strip_array_, strip_.id());
@@ -49,7 +51,7 @@ FarPass::~FarPass() {
     glDeleteQueries(1, &query_);
 }
 
-void FarPass::draw_level(const gl::Program& program, std::size_t k, const Inputs& inputs) const {
+void FarPass::draw_level(std::size_t k, const Inputs& inputs) const {
     const auto instances = static_cast<GLsizei>(inputs.instances[k].size());
     const FarTextures::Level& level = inputs.textures.levels()[k];
     instances_[k].bind_storage(BIND_FAR_INSTANCES);
@@ -60,36 +62,23 @@ void FarPass::draw_level(const gl::Program& program, std::size_t k, const Inputs
         level.slices.bind(TEX_FAR_IMAGES);
         glBindVertexArray(strip_array_);
         const int rows = k == 0 ? kRows : 1; // further off, a slice is some pixels tall
-        program.set("rows", static_cast<float>(rows));
+        program_.set("rows", static_cast<float>(rows));
         glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * rows, GL_UNSIGNED_SHORT, nullptr, instances);
     }
 }
 
 void FarPass::execute(const Inputs& inputs) {
-    const auto draw_levels = [&](const gl::Program& program) {
-        program.use();
-        for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
-            if (!inputs.instances[k].empty()) {
-                draw_level(program, k, inputs);
-            }
-        }
-    };
-    for (std::size_t k = 0; k < inputs.instances.size(); ++k) {
-        const std::size_t bytes = inputs.instances[k].size() * sizeof(shared::FarInstance);
-        instances_[k].reserve(bytes);
-        instances_[k].upload(inputs.instances[k].data(), bytes);
-    }
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    draw_levels(depth_program_);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-
-    glDepthFunc(GL_EQUAL);
-    glDepthMask(GL_FALSE);
+    program_.use();
     glBeginQuery(GL_SAMPLES_PASSED, query_);
-    draw_levels(program_);
+    for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
+        const std::size_t bytes = inputs.instances[k].size() * sizeof(shared::FarInstance);
+        if (bytes > 0) {
+            instances_[k].reserve(bytes);
+            instances_[k].upload(inputs.instances[k].data(), bytes);
+            draw_level(k, inputs);
+        }
+    }
     glEndQuery(GL_SAMPLES_PASSED);
-    glDepthMask(GL_TRUE);
-    glDepthFunc(GL_GREATER);
 }
 
 std::uint64_t FarPass::samples_passed() const {
