@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 
+#include <fmt/format.h>
+
+#include "base/log.h"
+#include "texgen/flat_rays.h"
 #include "texgen/parallel.h"
 #include "texgen/rays.h"
 
@@ -13,29 +15,16 @@ namespace sward::texgen {
 namespace {
 
 constexpr std::array kElevationsDeg = {90.0, 75.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0};
-constexpr int kRays = 16384; // an elevation: a standard error of 0.4 points at most
-
-/// Radical inverse: three bases spread the rays evenly over x, z and azimuth.
-double halton(int index, int base) {
-    double value = 0, scale = 1.0 / base;
-    for (; index > 0; index /= base, scale /= base)
-        value += (index % base) * scale;
-    return value;
-}
+constexpr int kRays = 32768;            // an elevation: a standard error of 0.3 points at most
+constexpr double kCoverageStep = 0.002; // below it, coverage is not worth another share
 
 grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double elevation_deg) {
-    const double elevation = elevation_deg * std::numbers::pi / 180;
     int hits = 0;
     double height = 0, along = 0;
     for (int i = 0; i < kRays; ++i) {
-        const BladeField& field = fields[static_cast<std::size_t>(i) % fields.size()];
-        const int number = i / static_cast<int>(fields.size()) + 1;
-        const double azimuth = halton(number, 5) * 2 * std::numbers::pi;
-        const glm::dvec3 origin(halton(number, 2) * field.side(), field.canopy(),
-                                halton(number, 3) * field.side());
-        const glm::dvec3 direction(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
-                                   std::cos(elevation) * std::sin(azimuth));
-        if (const std::optional<RayHit> hit = field.cast(origin, direction)) {
+        const BladeField& field = fields[static_cast<std::size_t>(i) * fields.size() / kRays];
+        const SampleRay ray = sample_ray(i, elevation_deg, field.side(), field.canopy());
+        if (const std::optional<RayHit> hit = field.cast(ray.origin, ray.direction)) {
             ++hits;
             height += std::clamp(hit->position.y / field.canopy(), 0.0, 1.0);
             along += hit->along;
@@ -49,6 +38,20 @@ grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double eleva
     return row;
 }
 
+/// The share nearest to `before` with which the textures cover what the blades do. Where the shells
+/// hardly matter (grazing, behind the slices) any share does, and the one above is kept: a share
+/// that jumps about for a tenth of a point would show.
+float pick_share(const ShareCurve& curve, double coverage, float before) {
+    const auto low = std::ranges::lower_bound(curve, coverage - kCoverageStep);
+    const auto high = std::ranges::upper_bound(curve, coverage + kCoverageStep);
+    const auto share = [&](auto at) {
+        return static_cast<float>(std::clamp<std::ptrdiff_t>(at - curve.begin(), 0, kShareSteps)) /
+               kShareSteps;
+    };
+    const float least = share(low);
+    return std::clamp(before, least, std::max(least, share(high - (high != curve.begin()))));
+}
+
 } // namespace
 
 std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int threads) {
@@ -59,6 +62,30 @@ std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int th
     parallel_for(rows.size(), resolve_threads(threads),
                  [&](std::size_t i, int) { rows[i] = cast_elevation(fields, kElevationsDeg[i]); });
     return rows;
+}
+
+void calibrate_shells(grass::GrassSet& set, int threads) {
+    const std::size_t levels = set.levels.size();
+    std::vector<ShareCurve> curves(set.far.size() * levels); // row-major
+    parallel_for(curves.size(), resolve_threads(threads), [&](std::size_t i, int) {
+        curves[i] = share_curve(set, static_cast<int>(i % levels),
+                                set.far[i / levels].elevation_deg, kRays);
+    });
+    base::log_debug("elevation  level   rays  all shells  share  calibrated");
+    std::vector<float> shares(levels, 1);
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        grass::FarRow& row = set.far[i / levels];
+        float& share = shares[i % levels];
+        share = pick_share(curves[i], row.coverage, share);
+        base::log_debug(fmt::format("{:9.0f}  {:5}  {:.3f}  {:10.3f}  {:.3f}  {:10.3f}",
+                                    row.elevation_deg, i % levels, row.coverage, curves[i].back(),
+                                    share,
+                                    curves[i][static_cast<std::size_t>(share * kShareSteps)]));
+        if (i % levels + 1 == levels) {
+            row.shell_share = shares[0];
+            row.coarse_shares.assign(shares.begin() + 1, shares.end());
+        }
+    }
 }
 
 } // namespace sward::texgen

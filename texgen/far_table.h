@@ -13,4 +13,8 @@ namespace sward::texgen {
 [[nodiscard]] std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m,
                                                    int threads);
 
+/// Fills the far rows' shares, so that the textures of each level cover what the rays of the row
+/// met, or as near as shells can bring them. Lists the rows at verbosity -v.
+void calibrate_shells(grass::GrassSet& set, int threads);
+
 } // namespace sward::texgen

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "base/hash.h"
+#include "texgen/rays.h"
 
 namespace sward::texgen {
 namespace {
@@ -23,12 +23,22 @@ const std::uint8_t* texel_of(const grass::TextureArray& array, int image, int co
                 static_cast<std::size_t>(column));
 }
 
+/// Variants in blocks of consecutive rays, each of them spread evenly.
+int variant_of(int ray, int rays, const grass::GrassSet& set) {
+    return static_cast<int>(std::int64_t{ray} * set.variants / rays);
+}
+
 } // namespace
+
+FlatField::Ray FlatField::ray_of(glm::dvec3 origin, glm::dvec3 direction,
+                                 std::uint64_t number) const {
+    return {origin, direction, std::max(0.0, (set_.canopy_m - origin.y) / direction.y),
+            -origin.y / direction.y, number};
+}
 
 std::optional<FlatHit> FlatField::cast(glm::dvec3 origin, glm::dvec3 direction,
                                        std::uint64_t ray) const {
-    const Ray r{origin, direction, std::max(0.0, (set_.canopy_m - origin.y) / direction.y),
-                -origin.y / direction.y, ray};
+    const Ray r = ray_of(origin, direction, ray);
     std::optional<FlatHit> best;
     if (use_.shell_share > 0)
         shells(r, best);
@@ -38,7 +48,23 @@ std::optional<FlatHit> FlatField::cast(glm::dvec3 origin, glm::dvec3 direction,
     return best;
 }
 
-void FlatField::shells(const Ray& ray, std::optional<FlatHit>& best) const {
+int FlatField::share_needed(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t ray) const {
+    const Ray r = ray_of(origin, direction, ray);
+    std::optional<FlatHit> side;
+    for (const int axis : {shared::kAxisX, shared::kAxisZ})
+        if (!side)
+            slices(r, axis, side);
+    if (side)
+        return 0;
+    double least = 2; // above any 1 - seed
+    walk_shells(r, [&](const FlatHit&, double seed) {
+        least = std::min(least, 1 - seed);
+        return false;
+    });
+    return least > 1 ? kShareSteps + 1 : static_cast<int>(std::floor(least * kShareSteps)) + 1;
+}
+
+template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit& visit) const {
     const double texel = static_cast<double>(set_.side_m) / far_.layers.width;
     for (int i = far_.layer_count - 1; i >= 0; --i) {
         const double y = (i + 0.5) / far_.layer_count * set_.canopy_m;
@@ -49,13 +75,18 @@ void FlatField::shells(const Ray& ray, std::optional<FlatHit>& best) const {
         const std::uint8_t* id = texel_of(
             far_.layers, shared::layer_index(variant_, i, far_.layer_count, shared::kPlaneId),
             wrapped(p.x, texel, far_.layers.width), wrapped(p.z, texel, far_.layers.width));
-        const double seed = (id[2] + 0.5) / 256;
-        if (1 - seed < use_.shell_share &&
-            base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i)) * 255 < id[0]) {
-            best = FlatHit{t, y, id[3] / 255.0};
+        if (base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i)) * 255 < id[0] &&
+            visit(FlatHit{t, y, id[3] / 255.0}, (id[2] + 0.5) / 256))
             return;
-        }
     }
+}
+
+void FlatField::shells(const Ray& ray, std::optional<FlatHit>& best) const {
+    walk_shells(ray, [&](const FlatHit& hit, double seed) {
+        if (1 - seed < use_.shell_share)
+            best = hit;
+        return best.has_value();
+    });
 }
 
 void FlatField::slices(const Ray& ray, int axis, std::optional<FlatHit>& best) const {
@@ -94,25 +125,40 @@ void FlatField::slices(const Ray& ray, int axis, std::optional<FlatHit>& best) c
 
 grass::FarRow flat_coverage(const grass::GrassSet& set, int level, double elevation_deg,
                             FlatUse use, int rays) {
-    const double elevation = elevation_deg * std::numbers::pi / 180;
     double hits = 0, height = 0, along = 0;
     for (int i = 0; i < rays; ++i) {
-        const auto number = static_cast<std::uint64_t>(i);
-        const FlatField field(set, i % set.variants, level, use);
-        const double azimuth = base::hash_unit(9, 1, number) * 2 * std::numbers::pi;
-        const glm::dvec3 origin(base::hash_unit(9, 2, number) * set.side_m, set.canopy_m,
-                                base::hash_unit(9, 3, number) * set.side_m);
-        const glm::dvec3 direction(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
-                                   std::cos(elevation) * std::sin(azimuth));
-        if (const auto hit = field.cast(origin, direction, number)) {
+        const FlatField field(set, variant_of(i, rays, set), level, use);
+        const SampleRay ray = sample_ray(i, elevation_deg, set.side_m, set.canopy_m);
+        if (const auto hit = field.cast(ray.origin, ray.direction, static_cast<std::uint64_t>(i))) {
             hits += 1;
             height += hit->height / set.canopy_m;
             along += hit->along;
         }
     }
-    return {static_cast<float>(elevation_deg), static_cast<float>(hits / rays),
-            static_cast<float>(height / std::max(hits, 1.0)),
-            static_cast<float>(along / std::max(hits, 1.0))};
+    grass::FarRow row;
+    row.elevation_deg = static_cast<float>(elevation_deg);
+    row.coverage = static_cast<float>(hits / rays);
+    row.height = static_cast<float>(height / std::max(hits, 1.0));
+    row.along = static_cast<float>(along / std::max(hits, 1.0));
+    row.shell_share = static_cast<float>(use.shell_share);
+    return row;
+}
+
+ShareCurve share_curve(const grass::GrassSet& set, int level, double elevation_deg, int rays) {
+    std::array<int, kShareSteps + 2> needed{};
+    for (int i = 0; i < rays; ++i) {
+        const FlatField field(set, variant_of(i, rays, set), level, {});
+        const SampleRay ray = sample_ray(i, elevation_deg, set.side_m, set.canopy_m);
+        const int n = field.share_needed(ray.origin, ray.direction, static_cast<std::uint64_t>(i));
+        ++needed[static_cast<std::size_t>(n)];
+    }
+    ShareCurve curve;
+    int hits = 0;
+    for (std::size_t n = 0; n < curve.size(); ++n) {
+        hits += needed[n];
+        curve[n] = static_cast<double>(hits) / rays;
+    }
+    return curve;
 }
 
 } // namespace sward::texgen

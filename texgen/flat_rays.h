@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -23,6 +24,12 @@ struct FlatUse {
     double slice_share = 1; ///< scales the slices' |dx| and |dz|
 };
 
+/// Seeds are eight bits: so many shares of the shells differ.
+inline constexpr int kShareSteps = 256;
+
+/// Coverage by shell share: entry n at a share of n / kShareSteps. Rises.
+using ShareCurve = std::array<double, kShareSteps + 1>;
+
 /// The far tier as rays see it: shells and both slice families of one level at rest, as models of
 /// the renderer and for calibration. A slice across x shows a blade while seed < |dx|, one across z
 /// while seed < |dz| (design, section 1).
@@ -37,12 +44,20 @@ public:
     [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction,
                                               std::uint64_t ray) const;
 
+    /// Least n at which the ray meets a texture with a shell share of n / kShareSteps;
+    /// kShareSteps + 1 if it meets none.
+    [[nodiscard]] int share_needed(glm::dvec3 origin, glm::dvec3 direction,
+                                   std::uint64_t ray) const;
+
 private:
     struct Ray {
         glm::dvec3 origin, direction;
         double begin, end; ///< where it is inside the canopy
         std::uint64_t number;
     };
+    [[nodiscard]] Ray ray_of(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t number) const;
+    /// Calls visit(hit, seed) for every covered texel of a shell from the top down, until true.
+    template<typename Visit> void walk_shells(const Ray& ray, const Visit& visit) const;
     void shells(const Ray& ray, std::optional<FlatHit>& best) const;
     void slices(const Ray& ray, int axis, std::optional<FlatHit>& best) const;
 
@@ -52,8 +67,11 @@ private:
     FlatUse use_;
 };
 
-/// Share of rays that meet a texture at an elevation, places and azimuths spread evenly.
+/// What rays meet of the textures at an elevation; the same rays as the far table's (sample_ray).
 [[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level,
                                           double elevation_deg, FlatUse use, int rays);
+
+[[nodiscard]] ShareCurve share_curve(const grass::GrassSet& set, int level, double elevation_deg,
+                                     int rays);
 
 } // namespace sward::texgen

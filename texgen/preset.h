@@ -24,16 +24,16 @@ struct Preset {
     std::string name = "unnamed";
     std::int64_t seed = 1;
 
-    double side_m = 2;           ///< period of the patch; memory and time grow with its square
-    double density_per_m2 = 700; ///< blades
-    std::int64_t variants = 4;   ///< patches that may stand side by side; more hide the period
+    double side_m = 2;            ///< period of the patch; memory and time grow with its square
+    double density_per_m2 = 1400; ///< blades
+    std::int64_t variants = 4;    ///< patches that may stand side by side; more hide the period
 
     double tuft_share = 0.55; ///< share of the blades that stand in tufts
     Range tuft_radius_m{0.03, 0.08};
     Range tuft_blades{8, 22};
 
     Range length_m{0.18, 0.36};  ///< along the curve
-    Range width_m{0.004, 0.007}; ///< full width at the root
+    Range width_m{0.004, 0.008}; ///< full width at the root
     Range lean_deg{0, 16};       ///< of the root from the vertical
     Range curvature_deg{5, 34};  ///< angle between the tangents of root and tip
     Range stiffness{0.35, 0.8};  ///< 0 limp, 1 stiff: for the physics, no effect on the rest pose

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sward::texgen {
 namespace {
@@ -12,6 +13,14 @@ constexpr int kCells = 64;
 int floor_mod(int a, int b) {
     const int r = a % b;
     return r < 0 ? r + b : r;
+}
+
+/// Radical inverse.
+double halton(int index, int base) {
+    double value = 0, scale = 1.0 / base;
+    for (; index > 0; index /= base, scale /= base)
+        value += (index % base) * scale;
+    return value;
 }
 
 /// One axis of a walk through square cells.
@@ -132,6 +141,15 @@ std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,
     best->distance += t;
     best->position = origin + best->distance * direction;
     return best;
+}
+
+SampleRay sample_ray(int number, double elevation_deg, double side, double canopy) {
+    const double elevation = elevation_deg * std::numbers::pi / 180;
+    const int n = number + 1; // 0 is the corner of all bases
+    const double azimuth = halton(n, 5) * 2 * std::numbers::pi;
+    return {glm::dvec3(halton(n, 2) * side, canopy, halton(n, 3) * side),
+            glm::dvec3(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation),
+                       std::cos(elevation) * std::sin(azimuth))};
 }
 
 } // namespace sward::texgen

@@ -54,4 +54,11 @@ private:
     std::vector<std::vector<Item>> grid_;
 };
 
+/// Ray `number` of a sequence that spreads evenly over places and azimuths, from the canopy's top
+/// down at an elevation.
+struct SampleRay {
+    glm::dvec3 origin, direction;
+};
+[[nodiscard]] SampleRay sample_ray(int number, double elevation_deg, double side, double canopy);
+
 } // namespace sward::texgen

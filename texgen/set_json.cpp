@@ -63,11 +63,16 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
              {"slices", grass::slices_file(static_cast<int>(k))}});
     }
     root["far"] = ordered_json::array();
-    for (const grass::FarRow& row : set.far)
+    for (const grass::FarRow& row : set.far) {
+        ordered_json shares = ordered_json::array();
+        for (std::size_t k = 0; k < set.levels.size(); ++k)
+            shares.push_back(decimal(row.share_at(static_cast<int>(k))));
         root["far"].push_back({{"elevation_deg", decimal(row.elevation_deg)},
                                {"coverage", decimal(row.coverage)},
                                {"height", decimal(row.height)},
-                               {"along", decimal(row.along)}});
+                               {"along", decimal(row.along)},
+                               {"shell_share", shares}});
+    }
     for (const FileEntry& file : files)
         root["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
     return root.dump(2) + "\n";

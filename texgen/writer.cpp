@@ -131,6 +131,10 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
         const StepTimer timer("far table");
         set.far = far_table(patch, set.canopy_m, options.threads);
     }
+    {
+        const StepTimer timer("shares of the shells");
+        calibrate_shells(set, options.threads);
+    }
     set.blades = std::move(patch.blades);
     set.variant_begin = std::move(patch.variant_begin);
     return set;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where things lie in a grass set's texture arrays, and how a texel is coded. Two RGBA8 planes an image:
-//   plane 0 "id":    R coverage 0..1 of the texel by its blade, G rank, B seed, A place along the blade v (0 root .. 1 tip)
+//   plane 0 "id":    R share 0..1 of the texel covered by any blade of the slab; of the one that covers most of it:
+//                    G rank, B seed, A place along the blade v (0 root .. 1 tip)
 //   plane 1 "shape": RG tangent x, z as t * 0.5 + 0.5 (its y is >= 0), BA offset from the texel's centre (on the layer's or
 //                    slice's own plane) to the blade's root in x, z: o / offset_range * 0.5 + 0.5
 // Images are sampled nearest: a texel belongs to one blade. In layers u runs along +x and v along +z; in x-slices (planes

@@ -29,12 +29,22 @@ struct FarLevel {
     TextureArray slices;           ///< variants * 2 axes * slice_count * 2 planes, (size >> k) x rows
 };
 
-/// Appearance of the whole canopy seen from far away, by view elevation (rays through the blades).
+/// The whole canopy seen from far away, by view elevation: what rays through the blades meet, and how the flat textures
+/// have to be shown to meet as much.
 struct FarRow {
     float elevation_deg = 90;
     float coverage = 0;    ///< share of rays that meet a blade before the ground
     float height = 0;      ///< mean height of the hits, 0 ground .. 1 top of the canopy
     float along = 0;       ///< mean place along the blade of the hits, 0 root .. 1 tip
+    /// Share of the shells' blades shown at this view elevation, so that shells and slices of level 0 together cover what
+    /// the blades cover: a shell shows a blade while 1 - seed < shell_share (the slices use the other end of the seeds
+    /// first). Linear in elevation between rows.
+    float shell_share = 1;
+    std::vector<float> coarse_shares; ///< the same for levels 1, 2, ...: thicker slabs need more of the shells
+
+    [[nodiscard]] float share_at(int level) const {
+        return level == 0 ? shell_share : coarse_shares[static_cast<std::size_t>(level - 1)];
+    }
 };
 
 /// A grass set in memory: what texgen writes and the renderer reads (docs/texgen.md).

@@ -7,7 +7,9 @@
 
 namespace sward::grass {
 
-inline constexpr int kSetFormatVersion = 1;
+/// Raised whenever sets of the same preset change, in form or in content: belongs in the key of every cache of
+/// sets, and the reader refuses every other.
+inline constexpr int kSetFormatVersion = 2;
 inline constexpr int kMaxVariants = 16;
 inline constexpr int kMaxFarLevels = 5;
 inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;

@@ -52,7 +52,9 @@ public:
         return object[key];
     }
     double number(const json& object, const char* key, double low, double high) const {
-        const json& value = at(object, key);
+        return in_range(at(object, key), key, low, high);
+    }
+    double in_range(const json& value, const char* key, double low, double high) const {
         const double v = value.is_number() ? value.get<double>() : std::nan("");
         if (!(v >= low && v <= high))
             refuse(key, base::printable(value.dump()),
@@ -154,15 +156,24 @@ void read_head(const SetJson& set, GrassSet& out) {
 }
 
 void read_far(const SetJson& set, GrassSet& out) {
+    const std::size_t levels = set.array(set.root(), "levels", 1, kMaxFarLevels).size();
     float last = 90.001f;
     for (const json& row : set.array(set.root(), "far", 0, kMaxFarRows)) {
-        const FarRow far{set.real(row, "elevation_deg", 0, 90), set.real(row, "coverage", 0, 1),
-                         set.real(row, "height", 0, 1), set.real(row, "along", 0, 1)};
+        FarRow far;
+        far.elevation_deg = set.real(row, "elevation_deg", 0, 90);
+        far.coverage = set.real(row, "coverage", 0, 1);
+        far.height = set.real(row, "height", 0, 1);
+        far.along = set.real(row, "along", 0, 1);
+        std::vector<float> shares;
+        for (const json& share : set.array(row, "shell_share", levels, levels))
+            shares.push_back(static_cast<float>(set.in_range(share, "shell_share", 0, 1)));
+        far.shell_share = shares[0];
+        far.coarse_shares.assign(shares.begin() + 1, shares.end());
         if (far.elevation_deg >= last)
             set.refuse("far", fmt::format("{} degrees after {}", far.elevation_deg, last),
                        "falling elevations");
         last = far.elevation_deg;
-        out.far.push_back(far);
+        out.far.push_back(std::move(far));
     }
 }
 

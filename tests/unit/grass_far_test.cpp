@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The far tier as rays see it: shells and slices together against the blades.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "grass_fixture.h"
+#include "texgen/flat_rays.h"
+
+namespace sward::texgen {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRays = 16384;
+
+const grass::FarRow& row_at(const grass::GrassSet& set, float elevation_deg) {
+    for (const grass::FarRow& row : set.far)
+        if (row.elevation_deg == elevation_deg)
+            return row;
+    throw std::out_of_range("no such row");
+}
+
+TEST(FarTier, CalibratedItCoversWhatTheBladesCover) {
+    const grass::GrassSet& set = small_set();
+    for (const float elevation : {90.0f, 60.0f, 45.0f, 30.0f, 10.0f}) {
+        const grass::FarRow& row = row_at(set, elevation);
+        const grass::FarRow flat = flat_coverage(set, 0, elevation, {row.shell_share, 1}, kRays);
+        EXPECT_NEAR(flat.coverage, row.coverage, 0.03) << elevation;
+    }
+}
+
+TEST(FarTier, CalibrationLeavesTheMeadowsHeightAndCoarserLevels) {
+    base::set_verbosity(base::Verbosity::kQuiet);
+    Preset preset = load_preset(fs::path(SWARD_SOURCE_DIR) / "texgen/presets/meadow.toml");
+    preset.variants = 1;
+    preset.levels = 3;
+    const grass::GrassSet set = bake_set(preset, {.threads = 2});
+    for (const grass::FarRow& row : set.far)
+        for (int level = 0; level < 3; ++level) {
+            const FlatUse use{row.share_at(level), 1};
+            const grass::FarRow flat = flat_coverage(set, level, row.elevation_deg, use, kRays);
+            // Thick slabs fall short even with all their shells; never is there too much.
+            EXPECT_LT(flat.coverage, row.coverage + 0.03) << row.elevation_deg << " " << level;
+            if (row.share_at(level) < 1) {
+                EXPECT_GT(flat.coverage, row.coverage - 0.03) << row.elevation_deg << " " << level;
+            }
+            if (level == 0) {
+                EXPECT_NEAR(flat.coverage, row.coverage, 0.03) << row.elevation_deg;
+                EXPECT_NEAR(flat.height, row.height, 0.05) << row.elevation_deg;
+            }
+        }
+    EXPECT_LT(row_at(set, 60).shell_share, 0.8f); // there is something to correct
+}
+
+TEST(FarTier, ShareCurveIsWhatRaysMeetAtEachShare) {
+    const grass::GrassSet& set = small_set();
+    for (const double elevation : {75.0, 30.0}) {
+        const ShareCurve curve = share_curve(set, 1, elevation, 4000);
+        for (const std::size_t n :
+             {std::size_t{0}, std::size_t{1}, std::size_t{100}, curve.size() - 1}) {
+            const FlatUse use{static_cast<double>(n) / kShareSteps, 1};
+            EXPECT_NEAR(curve[n], flat_coverage(set, 1, elevation, use, 4000).coverage, 1e-6) << n;
+        }
+    }
+}
+
+} // namespace
+} // namespace sward::texgen

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a set: what is written is read back, what is damaged is refused.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <map>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/hash.h"
+#include "grass/blades_glb.h"
+#include "grass/ktx2.h"
+#include "grass/set_files.h"
+#include "grass_fixture.h"
+#include "texgen/volume.h"
+
+namespace sward::texgen {
+namespace {
+
+namespace fs = std::filesystem;
+using base::ExitCode;
+using shared::BladeRecord;
+
+grass::TextureArray noise_array(int width, int height, int layers) {
+    grass::TextureArray array{width, height, layers, {}};
+    for (int m = 0; m < 3; ++m) {
+        array.mips.emplace_back(grass::mip_bytes(array, m));
+        for (std::size_t i = 0; i < array.mips.back().size(); ++i)
+            array.mips.back()[i] =
+                static_cast<std::uint8_t>(base::hash64(8, static_cast<std::uint64_t>(m), i) % 7);
+    }
+    return array;
+}
+
+class Folder {
+public:
+    Folder() : path_(fs::temp_directory_path() / fmt::format("sward-grass-test-{}", ::getpid())) {
+        fs::create_directories(path_);
+    }
+    ~Folder() { fs::remove_all(path_); }
+    const fs::path& path() const { return path_; }
+
+private:
+    fs::path path_;
+};
+
+TEST(Ktx2, RoundTripKeepsEveryByte) {
+    const grass::TextureArray array = noise_array(40, 12, 6);
+    const std::vector<std::byte> bytes = grass::encode_ktx2(array, 3);
+    const grass::TextureArray back = grass::decode_ktx2(bytes, "a.ktx2");
+    EXPECT_EQ(back.width, 40);
+    EXPECT_EQ(back.height, 12);
+    EXPECT_EQ(back.layers, 6);
+    EXPECT_EQ(back.mips, array.mips);
+}
+
+TEST(Ktx2, RefusesCutFlippedAndForeignBytes) {
+    const std::vector<std::byte> bytes = grass::encode_ktx2(noise_array(40, 12, 6), 3);
+    for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 97)
+        EXPECT_EQ(error_of([&] {
+                      (void)grass::decode_ktx2(std::span(bytes).first(size), "cut.ktx2");
+                  }).first,
+                  ExitCode::kBadInput)
+            << size;
+    const grass::TextureArray whole = grass::decode_ktx2(bytes, "whole.ktx2");
+    std::size_t harmless = 0; // free text, padding, bits that zstd does not read
+    for (std::size_t at = 0; at < bytes.size(); at += at < 400 ? 1 : 53) {
+        std::vector<std::byte> bad = bytes;
+        bad[at] ^= std::byte{0x10};
+        const auto [code, text] = error_of(
+            [&] { EXPECT_EQ(grass::decode_ktx2(bad, "flip.ktx2").mips, whole.mips) << at; });
+        harmless += code == ExitCode::kDone;
+        EXPECT_TRUE(code == ExitCode::kDone || code == ExitCode::kBadInput ||
+                    code == ExitCode::kOverLimit)
+            << at << text;
+    }
+    EXPECT_LT(harmless, 45u);
+    std::vector<std::byte> huge = bytes; // 65,536 images: refused before memory is taken
+    huge[34] = std::byte{1};
+    EXPECT_EQ(error_of([&] { (void)grass::decode_ktx2(huge, "huge.ktx2"); }).first,
+              ExitCode::kOverLimit);
+}
+
+TEST(BladesGlb, RoundTripIsExact) {
+    const Patch patch = small_patch();
+    const std::vector<std::byte> bytes = grass::encode_blades(patch.blades, patch.variant_begin, 2);
+    const grass::BladeList back = grass::decode_blades(bytes, "blades.glb", 2);
+    EXPECT_EQ(back.variant_begin, patch.variant_begin);
+    ASSERT_EQ(back.blades.size(), patch.blades.size());
+    EXPECT_EQ(std::memcmp(back.blades.data(), patch.blades.data(),
+                          back.blades.size() * sizeof(BladeRecord)),
+              0);
+}
+
+TEST(BladesGlb, RefusesCutDeepAndOutsideValues) {
+    Patch patch = small_patch();
+    const std::vector<std::byte> bytes = grass::encode_blades(patch.blades, patch.variant_begin, 2);
+    for (const std::size_t size :
+         {std::size_t{0}, std::size_t{19}, std::size_t{100}, bytes.size() / 2, bytes.size() - 1})
+        EXPECT_EQ(error_of([&] {
+                      (void)grass::decode_blades(std::span(bytes).first(size), "cut.glb", 2);
+                  }).first,
+                  ExitCode::kBadInput);
+    std::vector<std::byte> deep = bytes;
+    std::fill(deep.begin() + 20, deep.begin() + 2000, std::byte{'['});
+    EXPECT_EQ(error_of([&] { (void)grass::decode_blades(deep, "deep.glb", 2); }).first,
+              ExitCode::kBadInput);
+    EXPECT_EQ(error_of([&] { (void)grass::decode_blades(bytes, "side.glb", 1); }).first,
+              ExitCode::kBadInput); // roots beyond 1 m
+    patch.blades[7].v2.x = std::nanf("");
+    const auto bad = grass::encode_blades(patch.blades, patch.variant_begin, 2);
+    EXPECT_EQ(error_of([&] { (void)grass::decode_blades(bad, "nan.glb", 2); }).first,
+              ExitCode::kBadInput);
+}
+
+TEST(Volume, HoldsTheBladesArea) {
+    const grass::GrassSet& set = small_set();
+    const VolumeInfo info = inspect_volume(encode_volume(set));
+    EXPECT_EQ(info.grids, (std::vector<std::string>{"density", "tangent", "rank", "seed"}));
+    EXPECT_NEAR(info.voxel_m, 2.0 / 256, 1e-9);
+    double area = 0;
+    for (std::uint32_t b = 0; b < set.variant_begin[1];
+         ++b) // the outline 1 - v^2 keeps two thirds of the width
+        area += set.blades[b].shape.y * set.blades[b].v1.w * 2 * 2 / 3;
+    EXPECT_NEAR(info.density_sum * info.voxel_m * info.voxel_m, area,
+                0.05 * area); // some voxels are full
+    EXPECT_GT(info.active_voxels, 10000u);
+}
+
+std::map<std::string, std::string> hashes(const fs::path& directory) {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(directory))
+        all[entry.path().filename().string()] =
+            base::sha256_hex(base::read_file(entry.path(), 1 << 30));
+    return all;
+}
+
+TEST(GrassSet, SameSeedSameBytesAtAnyThreadCountAndReadsBackEqual) {
+    base::set_verbosity(base::Verbosity::kQuiet);
+    const Folder folder;
+    Preset preset = small_meadow();
+    preset.size = 128;
+    for (const int threads : {1, 2}) {
+        const BakeOptions options{.threads = threads};
+        write_set(bake_set(preset, options), preset, folder.path() / std::to_string(threads),
+                  options);
+    }
+    const auto one = hashes(folder.path() / "1");
+    EXPECT_EQ(one, hashes(folder.path() / "2"));
+    for (const char* name : {"set.json", "blades.glb", "volume.vdb", "preview.png", "layers.ktx2",
+                             "layers_1.ktx2", "slices_2.ktx2"})
+        EXPECT_TRUE(one.contains(name)) << name;
+    preset.seed = 2;
+    const grass::GrassSet made = bake_set(preset, {});
+    write_set(made, preset, folder.path() / "2", {}); // an earlier set is replaced
+    EXPECT_NE(one, hashes(folder.path() / "2"));
+    const grass::GrassSet read = grass::read_grass_set(folder.path() / "2");
+    EXPECT_EQ(read.name, made.name);
+    EXPECT_EQ(read.seed, 2u);
+    EXPECT_EQ(read.canopy_m, made.canopy_m);
+    EXPECT_EQ(read.offset_range_m, made.offset_range_m);
+    EXPECT_EQ(std::memcmp(&read.appearance, &made.appearance, sizeof made.appearance), 0);
+    ASSERT_EQ(read.levels.size(), made.levels.size());
+    for (std::size_t k = 0; k < read.levels.size(); ++k) {
+        EXPECT_EQ(read.levels[k].layers.mips, made.levels[k].layers.mips);
+        EXPECT_EQ(read.levels[k].slices.mips, made.levels[k].slices.mips);
+    }
+    ASSERT_EQ(read.far.size(), made.far.size());
+    for (std::size_t i = 0; i < read.far.size(); ++i) {
+        EXPECT_EQ(read.far[i].coverage, made.far[i].coverage);
+        EXPECT_EQ(read.far[i].shell_share, made.far[i].shell_share);
+        EXPECT_EQ(read.far[i].coarse_shares, made.far[i].coarse_shares);
+    }
+    EXPECT_EQ(std::memcmp(read.blades.data(), made.blades.data(),
+                          made.blades.size() * sizeof(BladeRecord)),
+              0);
+}
+
+TEST(GrassSet, RefusesDamageBeforeParsingAndSparesOtherDirectories) {
+    base::set_verbosity(base::Verbosity::kQuiet);
+    const Folder folder;
+    Preset preset = small_meadow();
+    preset.size = 64;
+    preset.density_per_m2 = 50;
+    const BakeOptions options{.volume = false, .preview = false};
+    const fs::path set = folder.path() / "set";
+    write_set(bake_set(preset, options), preset, set, options);
+    EXPECT_NO_THROW((void)grass::read_grass_set(set));
+    EXPECT_EQ(error_of([&] { (void)grass::read_grass_set(folder.path() / "none"); }).first,
+              ExitCode::kIo);
+    for (const char* name : {"blades.glb", "layers.ktx2", "slices_1.ktx2"}) {
+        const std::vector<std::byte> good = base::read_file(set / name, 1 << 30);
+        std::vector<std::byte> bad = good;
+        bad[bad.size() / 2] ^= std::byte{1};
+        base::write_file_atomic(set / name, bad);
+        const auto [code, text] = error_of([&] { (void)grass::read_grass_set(set); });
+        EXPECT_EQ(code, ExitCode::kBadInput);
+        EXPECT_NE(text.find(name), std::string::npos) << text;
+        EXPECT_NE(text.find("SHA-256"), std::string::npos) << text;
+        fs::remove(set / name);
+        EXPECT_EQ(error_of([&] { (void)grass::read_grass_set(set); }).first, ExitCode::kIo);
+        base::write_file_atomic(set / name, good);
+    }
+    const std::string json = base::read_text(set / grass::kSetJson, 1 << 20);
+    const auto altered = [&](const std::string& from, const std::string& to) {
+        return std::string(json).replace(json.find(from), from.size(), to);
+    };
+    const std::string version = fmt::format("\"version\": {}", grass::kSetFormatVersion);
+    for (const std::string& text :
+         {altered(version, "\"version\": 99"),
+          altered("\"shell_share\": [", "\"shell_share\": [0.5,"),
+          altered("\"shell_share\": [", "\"shell_share\": [1.5],\"b\":["),
+          altered("\"levels\": [", "\"shells\": ["), json.substr(0, json.size() / 2),
+          std::string(5000, '['), std::string("{}"), std::string()}) {
+        base::write_file_atomic(set / grass::kSetJson, text);
+        EXPECT_EQ(error_of([&] { (void)grass::read_grass_set(set); }).first, ExitCode::kBadInput)
+            << text.substr(0, 40);
+    }
+    base::write_file_atomic(folder.path() / "mine.txt", std::string("keep"));
+    EXPECT_EQ(error_of([&] { require_set_place(folder.path()); }).first, ExitCode::kIo);
+    EXPECT_TRUE(fs::exists(folder.path() / "mine.txt"));
+}
+
+} // namespace
+} // namespace sward::texgen
