@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// How grass bends: the closed forms held to numerical integration, lengths to measured lengths.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "shared/bend.h"
+#include "shared/blade.h"
+
+namespace sward::shared {
+namespace {
+
+/// B3 by integration: the curve whose tangent turns by theta = k s.
+glm::dvec2 integrated_arc(double s, double stem, double intensity) {
+    constexpr int kSteps = 4000;
+    const double k = 0.5 * 3.14159265358979323846 * intensity / stem;
+    const double step = s / kSteps;
+    glm::dvec2 sum(0);
+    for (int i = 0; i < kSteps; ++i) {
+        const double theta = k * (i + 0.5) * step;
+        sum += glm::dvec2(std::cos(theta), std::sin(theta)) * step;
+    }
+    return sum;
+}
+
+double measured_length(vec3 v1, vec3 v2) {
+    constexpr int kSteps = 512;
+    double sum = 0;
+    glm::dvec3 before(0);
+    for (int i = 1; i <= kSteps; ++i) {
+        const glm::dvec3 here(blade_curve(v1, v2, static_cast<float>(i) / kSteps));
+        sum += glm::length(here - before);
+        before = here;
+    }
+    return sum;
+}
+
+/// A blade as patches hold them: leans and bends within what the shipped presets allow.
+struct RestBlade {
+    vec3 v1, v2;
+    float stem;
+};
+RestBlade random_blade(std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    const float stem = 0.04f + 0.5f * unit(random);
+    const float azimuth = 6.2831853f * unit(random);
+    const float lean = 0.45f * unit(random);
+    const float turn = 0.9f * unit(random);
+    const auto toward = [&](float angle) {
+        return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth));
+    };
+    const vec3 v1 = toward(lean) * (0.5f * stem);
+    const vec3 v2 = v1 + toward(lean + turn) * (0.5f * stem);
+    return {v1, v2, static_cast<float>(measured_length(v1, v2))};
+}
+
+constexpr float kIntensities[] = {-1.0f, -0.6f, -0.02f, -1e-3f, -1e-6f, 0.0f, 1e-6f, 1e-3f, 0.005f, 0.02f, 0.3f, 0.72f, 1.0f};
+
+TEST(Bend, ArcEqualsIntegration) {
+    for (const float stem : {0.03f, 0.3f, 2.0f}) {
+        for (const float intensity : kIntensities) {
+            for (const float share : {0.0f, 0.1f, 0.5f, 1.0f}) {
+                const vec2 arc = bend_arc(share * stem, stem, intensity);
+                const glm::dvec2 truth = integrated_arc(share * stem, stem, intensity);
+                EXPECT_NEAR(arc.x, truth.x, 1e-5 * stem) << stem << " " << intensity << " " << share;
+                EXPECT_NEAR(arc.y, truth.y, 1e-5 * stem) << stem << " " << intensity << " " << share;
+            }
+        }
+    }
+}
+
+TEST(Bend, ArcKeepsLength) {
+    for (const float intensity : kIntensities) {
+        constexpr int kSteps = 200;
+        const float stem = 0.4f;
+        double length_so_far = 0;
+        vec2 before(0.0f);
+        for (int i = 1; i <= kSteps; ++i) {
+            const float s = stem * static_cast<float>(i) / kSteps;
+            const vec2 here = bend_arc(s, stem, intensity);
+            length_so_far += glm::length(glm::dvec2(here) - glm::dvec2(before));
+            EXPECT_NEAR(length_so_far, s, 2e-3 * stem) << intensity;
+            EXPECT_LE(glm::length(here), s * (1 + 1e-5f)) << intensity;
+            before = here;
+        }
+    }
+}
+
+TEST(Bend, ArcIsContinuousWhereTheSeriesTakesOver) {
+    const float stem = 1.0f;
+    const float switching = 1e-2f / (0.5f * kPi); // |k s| = 1e-2 at s = stem
+    const vec2 below = bend_arc(stem, stem, switching * 0.9999f);
+    const vec2 above = bend_arc(stem, stem, switching * 1.0001f);
+    EXPECT_NEAR(below.x, above.x, 1e-6f);
+    EXPECT_NEAR(below.y, above.y, 1e-5f);
+    EXPECT_GT(above.y, 0.0f);
+}
+
+TEST(Bend, CalmIsExactAndSidesAreMirrored) {
+    const vec2 calm = bend_arc(0.25f, 0.3f, 0.0f);
+    EXPECT_EQ(calm.x, 0.25f);
+    EXPECT_EQ(calm.y, 0.0f);
+    for (const float intensity : kIntensities) {
+        const vec2 here = bend_arc(0.2f, 0.3f, intensity);
+        const vec2 there = bend_arc(0.2f, 0.3f, -intensity);
+        EXPECT_TRUE(std::isfinite(here.x) && std::isfinite(here.y));
+        EXPECT_EQ(here.x, there.x);
+        EXPECT_EQ(here.y, -there.y);
+    }
+}
+
+TEST(Bend, IntensityRisesAndSaturates) {
+    float before = bend_intensity(0.0f, 0.1f);
+    EXPECT_EQ(before, 0.0f);
+    for (float speed = 1.0f; speed < 40.0f; speed += 1.0f) {
+        const float here = bend_intensity(speed, 0.1f);
+        EXPECT_GT(here, before);
+        EXPECT_LT(here, 0.72f);
+        before = here;
+    }
+    EXPECT_LE(bend_intensity(1e6f, 0.1f), 0.72f);
+}
+
+TEST(Bend, OffsetFollowsTheWindAndKeepsDistanceToTheRoot) {
+    const vec2 wind(3.0f, -4.0f);
+    for (const float y : {0.01f, 0.1f, 0.3f}) {
+        const vec3 offset = bend_offset(y, 0.3f, wind, 0.1f);
+        EXPECT_GT(offset.x, 0.0f);
+        EXPECT_NEAR(offset.x * wind.y, offset.z * wind.x, 1e-6f); // along the wind
+        EXPECT_LT(offset.y, 0.0f);
+        EXPECT_LE(glm::length(vec3(offset.x, y + offset.y, offset.z)), y * (1 + 1e-5f));
+    }
+    for (const vec3& none : {bend_offset(0.0f, 0.3f, wind, 0.1f), bend_offset(-0.1f, 0.3f, wind, 0.1f),
+                             bend_offset(0.2f, 0.3f, vec2(0.0f), 0.1f), grouped_offset(0.2f, 0.3f, vec2(0.0f), 0.1f)}) {
+        EXPECT_EQ(none, vec3(0.0f));
+    }
+}
+
+TEST(Bend, GroupedAndShellLeanAlikeToFirstOrder) {
+    const vec2 breeze(0.3f, 0.0f);
+    const float shell = bend_offset(0.3f, 0.3f, breeze, 0.1f).x;
+    const float grouped = grouped_offset(0.3f, 0.3f, breeze, 0.1f).x;
+    EXPECT_GT(shell, 0.0f);
+    EXPECT_NEAR(grouped / shell, 1.0f, 0.01f);
+}
+
+TEST(Bend, KeepLengthRestoresTheArc) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    for (int n = 0; n < 300; ++n) {
+        const RestBlade blade = random_blade(random);
+        // Stretched or shrunk, and pushed aside, the tip most: as a pose leaves it.
+        const float scale = 0.5f + unit(random), push = 0.6f * blade.stem * unit(random);
+        vec3 v1 = blade.v1 * scale + vec3(0.25f * push, 0.0f, 0.0f);
+        vec3 v2 = blade.v2 * scale + vec3(push, -0.3f * push, 0.0f);
+        keep_length(v1, v2, blade.stem);
+        EXPECT_NEAR(measured_length(v1, v2) / blade.stem, 1.0, 0.01);
+    }
+}
+
+TEST(Bend, KeepLengthSurvivesACollapsedBlade) {
+    vec3 v1(0.0f), v2(0.0f);
+    keep_length(v1, v2, 0.3f);
+    EXPECT_TRUE(std::isfinite(v1.x) && std::isfinite(v2.y));
+}
+
+TEST(Pose, NearPoseKeepsArcLength) {
+    std::mt19937 random(6);
+    for (int n = 0; n < 200; ++n) {
+        const RestBlade blade = random_blade(random);
+        for (const float speed : {0.0f, 2.0f, 8.0f, 30.0f}) {
+            vec3 v1 = blade.v1, v2 = blade.v2;
+            pose_blade(v1, v2, vec4(blade.stem, blade.stem, 0.08f, 0.0f), vec2(speed, 0.4f * speed));
+            EXPECT_NEAR(measured_length(v1, v2) / blade.stem, 1.0, 0.01) << speed;
+            EXPECT_GT(v2.y, 0.0f);
+        }
+    }
+}
+
+TEST(Pose, ShellPoseIsTheShellsWarp) {
+    std::mt19937 random(7);
+    const vec2 wind(5.0f, -3.0f);
+    for (int n = 0; n < 100; ++n) {
+        const RestBlade blade = random_blade(random);
+        const float canopy = 1.1f * blade.stem;
+        const vec4 shell(blade.stem, canopy, 0.1f, 1.0f);
+        vec3 v1 = blade.v1, v2 = blade.v2;
+        pose_blade(v1, v2, shell, wind);
+        for (const float v : {0.0f, 0.5f, 1.0f}) {
+            const vec3 rest = blade_curve(blade.v1, blade.v2, v);
+            const vec3 warped = rest + bend_offset(rest.y, canopy, wind, 0.1f);
+            EXPECT_LT(glm::length(blade_curve(v1, v2, v) - warped), 1e-6f * (1 + 10 * blade.stem)) << v;
+        }
+        // Between these places a quadratic stays near the warped curve.
+        for (const float v : {0.25f, 0.75f}) {
+            const vec3 rest = blade_curve(blade.v1, blade.v2, v);
+            const vec3 warped = rest + bend_offset(rest.y, canopy, wind, 0.1f);
+            EXPECT_LT(glm::length(blade_curve(v1, v2, v) - warped), 0.02f * blade.stem) << v;
+        }
+    }
+}
+
+TEST(Pose, HalfwayIsBetweenBoth) {
+    std::mt19937 random(8);
+    const RestBlade blade = random_blade(random);
+    const vec2 wind(6.0f, 1.0f);
+    vec3 tips[3];
+    for (int i = 0; i < 3; ++i) {
+        vec3 v1 = blade.v1, v2 = blade.v2;
+        pose_blade(v1, v2, vec4(blade.stem, 0.3f, 0.1f, 0.5f * static_cast<float>(i)), wind);
+        tips[i] = v2;
+    }
+    EXPECT_GT(glm::length(tips[0] - tips[2]), 1e-4f); // the poses differ, or this shows nothing
+    EXPECT_LT(glm::length(tips[1] - 0.5f * (tips[0] + tips[2])), 1e-6f);
+}
+
+TEST(Blade, OutlineTapersAboutTheMiddle) {
+    for (const float v : {0.0f, 0.3f, 0.8f, 1.0f}) {
+        const float left = blade_outline(0.0f, v), right = blade_outline(1.0f, v);
+        EXPECT_FLOAT_EQ(blade_outline(0.5f, v), 0.5f);
+        EXPECT_NEAR(left + right, 1.0f, 1e-6f);
+        EXPECT_NEAR(right - left, 1 - v * v, 1e-6f);
+    }
+}
+
+TEST(Blade, TangentIsTheCurvesDerivative) {
+    std::mt19937 random(9);
+    for (int n = 0; n < 50; ++n) {
+        const RestBlade blade = random_blade(random);
+        for (const float v : {0.05f, 0.5f, 0.95f}) {
+            const vec3 ahead = blade_curve(blade.v1, blade.v2, v + 0.01f) - blade_curve(blade.v1, blade.v2, v - 0.01f);
+            EXPECT_GT(glm::dot(blade_tangent(blade.v1, blade.v2, v), glm::normalize(ahead)), 0.9999f);
+        }
+    }
+    EXPECT_EQ(blade_tangent(vec3(0.0f), vec3(0.0f), 0.5f), vec3(0.0f, 1.0f, 0.0f)); // no NaN for a blade of no length
+}
+
+} // namespace
+} // namespace sward::shared

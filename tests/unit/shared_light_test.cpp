@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light: shading stays finite whatever it is given, tone and sRGB rise, the far table interpolates.
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gl/synthetic.h"
+#include "shared/shading.h"
+#include "shared/tone.h"
+#include "shells/far_appearance.h"
+
+namespace sward {
+namespace {
+
+using shared::GrassPoint;
+using shared::Light;
+using shared::vec2;
+using shared::vec3;
+using shared::vec4;
+
+bool usable(const vec3& radiance) {
+    return std::isfinite(radiance.x) && std::isfinite(radiance.y) && std::isfinite(radiance.z) && radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0;
+}
+
+TEST(Tone, MapRisesAndStaysWithinZeroAndOne) {
+    float before = -1;
+    for (float l = 0; l < 10; l += 0.01f) {
+        const float here = shared::tone_map(vec3(l)).x;
+        EXPECT_GE(here, before);
+        EXPECT_LE(here, 1.0f);
+        before = here;
+    }
+    EXPECT_GT(shared::tone_map(vec3(20)).x, 0.98f); // white in the end
+    EXPECT_GT(shared::tone_map(vec3(0.18f)).x, 0.05f);
+    EXPECT_EQ(shared::tone_map(vec3(0)), vec3(0));
+    EXPECT_EQ(shared::tone_map(vec3(-1)), vec3(0));
+    const vec3 colour = shared::tone_map(vec3(0.3f, 0.6f, 0.15f));
+    EXPECT_GT(colour.y, colour.x); // the order of the channels stays
+    EXPECT_GT(colour.x, colour.z);
+}
+
+TEST(Tone, SrgbHasItsKnownValuesAndIsMonotone) {
+    EXPECT_EQ(shared::srgb_encode_one(0), 0);
+    EXPECT_NEAR(shared::srgb_encode_one(1), 1, 1e-6f);
+    EXPECT_NEAR(shared::srgb_encode_one(0.18f), 0.4614f, 1e-4f);
+    EXPECT_NEAR(shared::srgb_encode_one(0.0031308f), 0.04045f, 1e-5f);
+    float before = -1;
+    for (float x = 0; x <= 1; x += 0.0005f) {
+        const float here = shared::srgb_encode_one(x);
+        EXPECT_GT(here, before);
+        before = here;
+    }
+}
+
+TEST(Shading, GrassIsFiniteAndNonNegativeForExtremeInputs) {
+    const shared::GrassAppearance look = tests::grass_look();
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> signed_unit(-1, 1);
+    const auto direction = [&] { return glm::normalize(vec3(signed_unit(random), signed_unit(random), signed_unit(random)) + vec3(1e-4f)); };
+    for (int n = 0; n < 20000; ++n) {
+        const Light light = tests::daylight(direction());
+        const vec3 tangent = n % 3 == 0 ? vec3(light.to_sun) : direction(); // along the sun: no diffuse, no NaN
+        const vec3 to_eye = n % 5 == 0 ? vec3(light.to_sun) : direction();
+        const GrassPoint point{vec3(n % 7 == 0 ? 0.0f : 1.0f), tangent, 1.5f * signed_unit(random), signed_unit(random)};
+        EXPECT_TRUE(usable(shade_grass(look, light, point, to_eye))) << n;
+        EXPECT_TRUE(usable(shade_soil(light, vec3(0.2f), direction(), 0.5f + 0.5f * signed_unit(random)))) << n;
+        EXPECT_TRUE(usable(sky_radiance(light, direction()))) << n;
+        EXPECT_TRUE(usable(apply_haze(light, vec3(1.0f), static_cast<float>(n) * 10, direction()))) << n;
+    }
+}
+
+TEST(Shading, LookingStraightAgainstTheSunIsFinite) {
+    const Light light = tests::daylight(glm::normalize(vec3(0.3f, 0.6f, 0.2f)));
+    const vec3 away = -vec3(light.to_sun); // the half vector vanishes
+    EXPECT_TRUE(usable(shade_grass(tests::grass_look(), light, {vec3(0.1f), vec3(0, 1, 0), 0.5f, 0.6f}, away)));
+    EXPECT_TRUE(usable(sky_radiance(light, vec3(0, 1.0000001f, 0)))); // a unit vector, rounded
+    EXPECT_TRUE(usable(apply_haze(light, vec3(0.5f), 100, vec3(0, -1, 0))));
+}
+
+TEST(Shading, SunlightFadesDownTheCanopyAndBehindTheHill) {
+    const Light light = tests::daylight(glm::normalize(vec3(0.5f, 0.7f, 0)));
+    for (float h = 0; h < 1; h += 0.1f) {
+        EXPECT_LT(canopy_sun(light, h, 0.7f), canopy_sun(light, h + 0.1f, 0.7f));
+        EXPECT_LT(canopy_sky(light, h), canopy_sky(light, h + 0.1f));
+    }
+    EXPECT_NEAR(canopy_sun(light, 1, 0.7f), 1, 1e-6f);
+    EXPECT_NEAR(canopy_sky(light, 1), 1, 1e-6f);
+    EXPECT_EQ(canopy_sun(light, 1, -0.1f), 0);
+    EXPECT_LT(canopy_sun(light, 0.5f, 0.3f), canopy_sun(light, 0.5f, 0.9f)); // a longer path
+}
+
+TEST(Shading, ABladesColourIsItsOwnAndWithinReason) {
+    const shared::GrassAppearance look = tests::grass_look();
+    const auto at = [&](float rank, float seed) { return blade_albedo(look, vec2(rank, seed) / 256.0f, 0.5f, 1); };
+    EXPECT_EQ(at(0.5f, 10.5f), at(0.5f, 10.5f));
+    EXPECT_NE(at(0.5f, 10.5f), at(1.5f, 10.5f));
+    EXPECT_NE(at(0.5f, 10.5f), at(0.5f, 11.5f));
+    for (int n = 0; n < 256; ++n) {
+        for (const float v : {0.0f, 0.5f, 1.0f}) {
+            const vec3 albedo = blade_albedo(look, vec2(static_cast<float>(n) + 0.5f, 99.5f) / 256.0f, v, 1);
+            EXPECT_TRUE(usable(albedo));
+            EXPECT_LT(albedo.x + albedo.y + albedo.z, 1.5f);
+        }
+    }
+}
+
+TEST(Shading, MeanColourIsTheSameAtEveryDetail) {
+    const shared::GrassAppearance look = tests::grass_look();
+    for (const float v : {0.1f, 0.5f, 0.9f, 1.0f}) {
+        vec3 mean[3] = {vec3(0), vec3(0), vec3(0)};
+        for (int n = 0; n < 65536; ++n) {
+            const vec2 own = (vec2(n % 256, n / 256) + 0.5f) / 256.0f;
+            for (int i = 0; i < 3; ++i) {
+                mean[i] += blade_albedo(look, own, v, 0.5f * static_cast<float>(i)) / 65536.0f;
+            }
+        }
+        EXPECT_EQ(blade_albedo(look, vec2(0.1f, 0.7f), v, 0), blade_albedo(look, vec2(0.6f, 0.2f), v, 0));
+        for (int i = 1; i < 3; ++i) {
+            EXPECT_LT(glm::length(mean[i] - mean[0]), 0.01f * glm::length(mean[0])) << v << " detail " << 0.5f * static_cast<float>(i);
+        }
+    }
+    EXPECT_EQ(shared::colour_detail(0), 0);
+    EXPECT_EQ(shared::colour_detail(1), 1);
+}
+
+TEST(FarTable, RowsInterpolateBySineAndHoldAtTheEnds) {
+    grass::GrassSet set;
+    for (const auto& [elevation, coverage, height] : {std::tuple{90.0f, 0.2f, 0.6f}, {30.0f, 0.6f, 0.7f}, {0.0f, 1.0f, 0.9f}}) {
+        grass::FarRow row;
+        row.elevation_deg = elevation;
+        row.coverage = coverage;
+        row.height = height;
+        set.far.push_back(row);
+    }
+    const auto expect_row = [&](float sine, float coverage, float height) {
+        const vec2 row = shells::far_row_at(set, sine);
+        EXPECT_NEAR(row.x, coverage, 1e-5f) << sine;
+        EXPECT_NEAR(row.y, height, 1e-5f) << sine;
+    };
+    expect_row(1.0f, 0.2f, 0.6f);
+    expect_row(1.5f, 0.2f, 0.6f);
+    expect_row(0.75f, 0.4f, 0.65f); // halfway in sine
+    expect_row(0.5f, 0.6f, 0.7f);
+    expect_row(0.25f, 0.8f, 0.8f);
+    expect_row(0.0f, 1.0f, 0.9f);
+    expect_row(-0.5f, 1.0f, 0.9f);
+}
+
+TEST(FarTable, ShellSharesInterpolateByLevel) {
+    grass::GrassSet set = tests::synthetic_set();
+    for (std::size_t i = 0; i < set.far.size(); ++i) { // 90, 45 and 10 degrees
+        set.far[i].shell_share = 1 - 0.4f * static_cast<float>(i);
+        set.far[i].coarse_shares = {0.5f, 0.1f * static_cast<float>(i)};
+    }
+    EXPECT_NEAR(shells::shell_share_at(set, 1)[0], 1, 1e-6f);
+    EXPECT_NEAR(shells::shell_share_at(set, std::sqrt(0.5f))[0], 0.6f, 1e-5f);
+    EXPECT_NEAR(shells::shell_share_at(set, 0)[0], 0.2f, 1e-6f);
+    EXPECT_NEAR(shells::shell_share_at(set, 0.5f * (1 + std::sqrt(0.5f)))[2], 0.05f, 1e-5f);
+    EXPECT_NEAR(shells::shell_share_at(set, 0.3f)[1], 0.5f, 1e-6f);
+}
+
+TEST(FarTable, RadianceIsUsableAllOverTheHemisphere) {
+    const grass::GrassSet set = tests::synthetic_set();
+    for (const float sun_height : {-0.1f, 0.05f, 0.6f, 1.0f}) {
+        const Light light = tests::daylight(glm::normalize(vec3(std::sqrt(1 - std::min(sun_height * sun_height, 1.0f)), sun_height, 0)));
+        for (float azimuth = 0; azimuth < 3.15f; azimuth += 0.45f) {
+            for (float sine = 0; sine <= 1.0f; sine += 0.125f) {
+                const vec4 texel = shells::canopy_radiance(set, light, azimuth, sine);
+                EXPECT_TRUE(usable(vec3(texel))) << sun_height << " " << azimuth << " " << sine;
+                EXPECT_GE(texel.w, 0.0f);
+                EXPECT_LE(texel.w, 1.0f);
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace sward
