@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shaders: every variant builds, what the driver reflects is what the shared headers say, errors name file and line.
+#include <cstddef>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "gl/fixture.h"
+#include "render/impl.h"
+#include "terrain/terrain_pass.h"
+
+namespace sward::tests {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Variant {
+    std::vector<fs::path> stages;
+    std::vector<std::string> defines;
+};
+
+std::vector<Variant> variants() {
+    std::vector<Variant> all = {{{"terrain/clipmap_height.comp"}, {}}, {{"terrain/clipmap_surface.comp"}, {}},
+                                {{"terrain/block_samples.comp"}, {}},  {{"blades/cull.comp"}, {}},
+                                {{"render/screen.vert", "render/tone_map.frag"}, {}}};
+    const std::vector<std::vector<fs::path>> with_aov = {
+        {"terrain/terrain.vert", "terrain/terrain.frag"},
+        {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
+        {"shells/far.vert", "shells/far.frag"},
+        {"render/screen.vert", "render/sky.frag"},
+        {"render/screen.vert", "render/resolve.frag"}};
+    for (const auto& stages : with_aov) {
+        all.push_back({stages, {}});
+        all.push_back({stages, {"AOV"}});
+    }
+    all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES"}});
+    all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV"}});
+    return all;
+}
+
+gl::Program build(const Variant& variant) { return {variant.stages.back().string(), variant.stages, variant.defines}; }
+
+std::string resource_name(GLuint program, GLenum interface, GLuint index) {
+    char name[256];
+    glGetProgramResourceName(program, interface, index, sizeof(name), nullptr, name);
+    return name;
+}
+
+GLint resource_value(GLuint program, GLenum interface, GLuint index, GLenum what) {
+    GLint value = -1;
+    glGetProgramResourceiv(program, interface, index, 1, &what, 1, nullptr, &value);
+    return value;
+}
+
+GLint resource_count(GLuint program, GLenum interface) {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
+    return count;
+}
+
+class Programs : public GlTest {};
+
+TEST_F(Programs, PassesBuildInBothVariants) {
+    for (const bool aov : {false, true}) {
+        const render::DrawPasses passes(aov);
+    }
+    const blades::CullPass cull;
+    const terrain::BlockSamples samples;
+}
+
+TEST_F(Programs, TheVariantsHoldEveryEntryPoint) {
+    std::set<fs::path> known;
+    for (const Variant& variant : variants()) {
+        known.insert(variant.stages.begin(), variant.stages.end());
+    }
+    const fs::path root = fs::path(SWARD_SOURCE_DIR) / "shaders";
+    for (const auto& entry : fs::recursive_directory_iterator(root)) {
+        const std::string extension = entry.path().extension().string();
+        if (entry.is_regular_file() && extension != ".h" && extension != ".glsl") {
+            EXPECT_TRUE(known.count(fs::relative(entry.path(), root))) << entry.path() << ": add it to the variants above";
+        }
+    }
+}
+
+TEST_F(Programs, BlocksAreBoundByTheirNames) {
+    const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME}, {"SurfaceBlock", BIND_SURFACE}};
+    const std::map<std::string, GLint> storage_blocks = {
+        {"Blades", BIND_BLADES}, {"Tiles", BIND_BLADE_TILES}, {"Items", BIND_CULL_ITEMS}, {"Survivors", BIND_SURVIVORS},
+        {"Commands", BIND_DRAW_COMMANDS}, {"Total", BIND_CULL_TOTAL}, {"Blocks", BIND_TERRAIN_BLOCKS},
+        {"Instances", BIND_FAR_INSTANCES}, {"Samples", BIND_BLOCK_SAMPLES}};
+    std::set<std::string> seen;
+    for (const Variant& variant : variants()) {
+        const gl::Program program = build(variant);
+        for (const auto& [interface, names] : {std::pair{GLenum{GL_UNIFORM_BLOCK}, uniform_blocks}, {GLenum{GL_SHADER_STORAGE_BLOCK}, storage_blocks}}) {
+            for (GLint i = 0; i < resource_count(program.id(), interface); ++i) {
+                const std::string name = resource_name(program.id(), interface, static_cast<GLuint>(i));
+                ASSERT_TRUE(names.count(name)) << name << " in " << program.name();
+                EXPECT_EQ(resource_value(program.id(), interface, static_cast<GLuint>(i), GL_BUFFER_BINDING), names.at(name)) << name;
+                seen.insert(name);
+            }
+        }
+    }
+    EXPECT_EQ(seen.size(), uniform_blocks.size() + storage_blocks.size()); // no name of the table is out of date
+}
+
+TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
+    const std::map<std::string, GLint> units = {
+        {"clip_height", TEX_CLIP_HEIGHT}, {"clip_surface", TEX_CLIP_SURFACE}, {"heights", TEX_CLIP_HEIGHT}, {"far_images", TEX_FAR_IMAGES},
+        {"far_appearance", TEX_FAR_APPEARANCE}, {"elevation", TEX_ELEVATION}, {"mask", TEX_MASK}, {"scene_color", TEX_RESOLVE_COLOR},
+        {"scene_data", TEX_RESOLVE_DATA}, {"scene_tangent", TEX_RESOLVE_TANGENT}, {"scene_normal", TEX_RESOLVE_NORMAL},
+        {"scene_depth", TEX_RESOLVE_DEPTH}};
+    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_MULTISAMPLE};
+    std::set<std::string> seen;
+    for (const Variant& variant : variants()) {
+        const gl::Program program = build(variant);
+        for (GLint i = 0; i < resource_count(program.id(), GL_UNIFORM); ++i) {
+            const auto index = static_cast<GLuint>(i);
+            const std::string name = resource_name(program.id(), GL_UNIFORM, index);
+            if (!samplers.count(resource_value(program.id(), GL_UNIFORM, index, GL_TYPE))) {
+                continue;
+            }
+            ASSERT_TRUE(units.count(name)) << name << " in " << program.name();
+            GLint unit = -1;
+            glGetUniformiv(program.id(), resource_value(program.id(), GL_UNIFORM, index, GL_LOCATION), &unit);
+            EXPECT_EQ(unit, units.at(name)) << name << " in " << program.name();
+            seen.insert(name);
+        }
+    }
+    EXPECT_EQ(seen.size(), units.size());
+}
+
+TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
+    const std::map<std::string, glm::ivec3> groups = {{"terrain/clipmap_height.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
+                                                      {"terrain/clipmap_surface.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
+                                                      {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
+                                                      {"blades/cull.comp", {CULL_GROUP, 1, 1}}};
+    for (const Variant& variant : variants()) {
+        const gl::Program program = build(variant);
+        if (variant.stages[0].extension() == ".comp") {
+            glm::ivec3 size(0);
+            glGetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, &size.x);
+            EXPECT_EQ(size, groups.at(program.name())) << program.name();
+            continue;
+        }
+        EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();
+        const bool aov = !variant.defines.empty() && variant.defines.back() == "AOV";
+        for (const auto& [name, location] : {std::pair{"out_data", OUT_DATA}, {"out_tangent", OUT_TANGENT}, {"out_normal", OUT_NORMAL}}) {
+            const GLint found = glGetFragDataLocation(program.id(), name);
+            EXPECT_TRUE(found == location || found == -1) << name << " in " << program.name();
+            EXPECT_TRUE(!aov || found == location) << name << " in " << program.name();
+        }
+    }
+}
+
+TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
+    const gl::Program program = build({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV"}});
+    const auto offset_of = [&](const char* member) {
+        const GLuint index = glGetProgramResourceIndex(program.id(), GL_UNIFORM, member);
+        EXPECT_NE(index, GL_INVALID_INDEX) << member;
+        return static_cast<std::size_t>(resource_value(program.id(), GL_UNIFORM, index, GL_OFFSET));
+    };
+    using shared::FrameConstants;
+    EXPECT_EQ(offset_of("frame.clip_from_world"), offsetof(FrameConstants, clip_from_world));
+    EXPECT_EQ(offset_of("frame.eye"), offsetof(FrameConstants, eye));
+    EXPECT_EQ(offset_of("frame.patch_tile"), offsetof(FrameConstants, patch_tile));
+    EXPECT_EQ(offset_of("frame.mode"), offsetof(FrameConstants, mode));
+    EXPECT_EQ(offset_of("frame.far_bands[0]"), offsetof(FrameConstants, far_bands));
+    EXPECT_EQ(offset_of("frame.clip_layout"), offsetof(FrameConstants, clip_layout));
+    EXPECT_EQ(offset_of("frame.clip[0]"), offsetof(FrameConstants, clip));
+    EXPECT_EQ(offset_of("frame.look.light"), offsetof(FrameConstants, look.light));
+    EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
+    EXPECT_EQ(offset_of("frame.wind.waves[0]"), offsetof(FrameConstants, wind.waves));
+    EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));
+    const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
+    EXPECT_EQ(static_cast<std::size_t>(resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)), sizeof(FrameConstants));
+}
+
+TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
+    const std::map<std::string, std::size_t> strides = {
+        {"blades[0].root", sizeof(shared::BladeRecord)},       {"tiles[0].place", sizeof(shared::BladeTile)},
+        {"items[0]", sizeof(glm::uvec2)},                      {"survivors[0]", sizeof(glm::uvec2)},
+        {"commands[0].vertices", sizeof(shared::DrawCommand)}, {"blocks[0].place", sizeof(shared::TerrainBlock)},
+        {"instances[0].place", sizeof(shared::FarInstance)},   {"samples[0].ground", sizeof(shared::BlockSample)}};
+    std::set<std::string> seen;
+    for (const Variant& variant : variants()) {
+        const gl::Program program = build(variant);
+        for (const auto& [name, bytes] : strides) {
+            const GLuint index = glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, name.c_str());
+            if (index != GL_INVALID_INDEX) {
+                seen.insert(name);
+                const GLenum what = name.find('.') == std::string::npos ? GL_ARRAY_STRIDE : GL_TOP_LEVEL_ARRAY_STRIDE;
+                EXPECT_EQ(static_cast<std::size_t>(resource_value(program.id(), GL_BUFFER_VARIABLE, index, what)), bytes) << name;
+            }
+        }
+    }
+    EXPECT_EQ(seen.size(), strides.size());
+}
+
+// ---- errors and reload
+
+template<class Act> std::string error_of(const Act& act) {
+    try {
+        act();
+    } catch (const base::Error& error) {
+        EXPECT_EQ(error.code(), base::ExitCode::kNoGpu) << error.what();
+        return error.what();
+    }
+    return "no error";
+}
+
+class ShaderErrors : public GlTest {
+protected:
+    void TearDown() override {
+        forgive_messages(); // drivers may report what we broke
+        GlTest::TearDown();
+    }
+    static gl::Program tone_map() { return {"tone map", {"render/screen.vert", "render/tone_map.frag"}}; }
+    static void expect_contains(const std::string& text, const std::string& part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks " << part;
+        EXPECT_EQ(text.find('\n'), std::string::npos) << "more than one line: " << text;
+    }
+    ShaderCopy shaders_;
+};
+
+TEST_F(ShaderErrors, NameFileAndLineOfTheSource) {
+    const int line = shaders_.append("render/tone_map.frag", "float wrong = nowhere;\n");
+    expect_contains(error_of([] { tone_map(); }), "render/tone_map.frag:" + std::to_string(line));
+}
+
+TEST_F(ShaderErrors, NameTheIncludedFile) {
+    shaders_.write("shared/tone.h", "#define SHARED_TONE\n\nvec3 tone_map(vec3 c) { return c; }\nvec3 srgb_encode(vec3 c) { return c * oops; }\n");
+    expect_contains(error_of([] { tone_map(); }), "shared/tone.h:4");
+}
+
+TEST_F(ShaderErrors, LinesAfterAnIncludeAreCountedOn) {
+    const int line = shaders_.append("blades/cull.comp", "\n\nint wrong() { return 1.5; }\n");
+    expect_contains(error_of([] { gl::Program("cull", {"blades/cull.comp"}); }), "blades/cull.comp:" + std::to_string(line + 2));
+}
+
+TEST_F(ShaderErrors, NameTheLineOfAMissingInclude) {
+    shaders_.write("render/tone_map.frag", "// one\n#include \"shared/tone.h\"\n  #  include \"lib/none.glsl\"\nvoid main() {}\n");
+    const std::string error = error_of([] { tone_map(); });
+    expect_contains(error, "render/tone_map.frag:3");
+    expect_contains(error, "none.glsl");
+}
+
+TEST_F(ShaderErrors, MissingFileAndUnknownStage) {
+    expect_contains(error_of([] { gl::Program("none", {"render/none.comp"}); }), "render/none.comp");
+    shaders_.write("render/odd.txt", "void main() {}\n");
+    expect_contains(error_of([] { gl::Program("odd", {"render/odd.txt"}); }), "render/odd.txt");
+}
+
+TEST_F(ShaderErrors, LinkFailuresNameTheProgramsFirstStage) {
+    shaders_.write("render/tone_map.frag", "in vec4 never_written;\nlayout(location = 0) out vec4 c;\nvoid main() { c = never_written; }\n");
+    expect_contains(error_of([] { tone_map(); }), "render/screen.vert");
+}
+
+TEST_F(ShaderErrors, IncludesInCyclesEnd) {
+    shaders_.write("lib/one.glsl", "#include \"lib/two.glsl\"\n");
+    shaders_.write("lib/two.glsl", "#include \"lib/one.glsl\"\nfloat two() { return 2.0; }\n");
+    shaders_.write("cycle.comp", "#include \"lib/one.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { two(); }\n");
+    EXPECT_EQ(error_of([] { gl::Program("cycle", {"cycle.comp"}); }), "no error");
+}
+
+TEST_F(ShaderErrors, ReloadKeepsTheOldProgramUntilTheNewOneBuilds) {
+    gl::Program program = tone_map();
+    const GLuint old = program.id();
+    shaders_.append("render/tone_map.frag", "broken\n");
+    expect_contains(error_of([&] { program.reload(); }), "render/tone_map.frag");
+    EXPECT_EQ(program.id(), old);
+    EXPECT_TRUE(glIsProgram(old));
+    program.use();
+    shaders_.restore("render/tone_map.frag");
+    program.reload();
+    GLint linked = 0;
+    glGetProgramiv(program.id(), GL_LINK_STATUS, &linked);
+    EXPECT_TRUE(linked);
+}
+
+} // namespace
+} // namespace sward::tests

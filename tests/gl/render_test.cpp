@@ -1,0 +1,328 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole frames of a small world: complete, finite, repeatable, and gone without a trace.
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/error.h"
+#include "gl/fixture.h"
+#include "gl/framebuffer.h"
+#include "gl/memory.h"
+#include "render/renderer.h"
+#include "render/screen_passes.h"
+#include "shared/tone.h"
+
+namespace sward::tests {
+namespace {
+
+using render::FrameSettings;
+using render::Renderer;
+using render::Tiers;
+
+render::World small_world(scene::Heightfield field = hilly_field()) {
+    render::World world;
+    world.scene.terrain.detail_m = 0.3;
+    world.scene.lod.handover_start_m = 3;
+    world.scene.lod.handover_end_m = 7;
+    world.elevation = std::move(field);
+    world.mask = even_mask(1);
+    world.grass = synthetic_set();
+    return world;
+}
+
+FrameSettings small_frame() {
+    FrameSettings settings;
+    settings.width = 160;
+    settings.height = 90;
+    return settings;
+}
+
+class Render : public GlTest {
+protected:
+    static render::View view_from(const Renderer& renderer, glm::dvec3 position, double pitch_deg) {
+        scene::Pose pose;
+        pose.position = position;
+        pose.pitch_deg = pitch_deg;
+        pose = renderer.above_datum(pose);
+        return {pose, pose, 3.5, 0};
+    }
+};
+
+TEST_F(Render, AovsHoldEveryTierAndAreFinite) {
+    Renderer renderer(small_world());
+    FrameSettings settings = small_frame();
+    settings.aov = true;
+    renderer.draw(view_from(renderer, {20, 1.5, 30}, -12), settings);
+    const scene::Image image = renderer.read_aovs({"color", "depth", "tier", "coverage", "tangent", "normal", "rank"});
+    ASSERT_EQ(image.channels.size(), 14u);
+    std::map<int, int> tiers;
+    for (std::size_t i = 0; i < image.texels.size(); i += image.channels.size()) {
+        const float* texel = &image.texels[i];
+        for (std::size_t c = 0; c < image.channels.size(); ++c) {
+            ASSERT_TRUE(std::isfinite(texel[c])) << image.channels[c];
+        }
+        ASSERT_GE(std::min({texel[0], texel[1], texel[2]}), 0.0f);
+        EXPECT_EQ(texel[3], 1.0f); // alpha
+        const int tier = static_cast<int>(texel[5]);
+        ++tiers[tier];
+        EXPECT_GE(texel[6], 0.0f);
+        EXPECT_LE(texel[6], 1.0f);
+        EXPECT_EQ(texel[4] > 0, tier != 7) << "only the sky has no depth";
+        if (tier == 2 || tier == 3 || tier == 4 || tier == 5) {
+            EXPECT_NEAR(glm::length(glm::vec3(texel[7], texel[8], texel[9])), 1, 0.02);
+            EXPECT_GT(texel[13], 0.0f); // rank
+        }
+    }
+    for (const int tier : {0, 2, 3, 7}) {
+        EXPECT_GT(tiers[tier], 20) << "tier " << tier;
+    }
+    EXPECT_GT(tiers[4] + tiers[5], 20);
+    for (const auto& [tier, count] : tiers) {
+        EXPECT_TRUE(std::set<int>({0, 2, 3, 4, 5, 7}).count(tier)) << tier;
+    }
+}
+
+TEST_F(Render, TwiceTheSameFrameIsTheSamePicture) {
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -12);
+    renderer.draw(view, small_frame());
+    const auto first = renderer.read_picture();
+    const auto colour = renderer.read_aovs({"color", "depth"});
+    renderer.draw(view_from(renderer, {400, 60, -300}, -40), small_frame()); // somewhere else in between
+    EXPECT_NE(renderer.read_picture().rgb, first.rgb);
+    renderer.draw(view, small_frame());
+    EXPECT_EQ(renderer.read_picture().rgb, first.rgb);
+    EXPECT_EQ(renderer.read_aovs({"color", "depth"}).texels, colour.texels);
+    Renderer other(small_world());
+    other.draw(view, small_frame());
+    EXPECT_EQ(other.read_picture().rgb, first.rgb);
+    FrameSettings aov = small_frame();
+    aov.aov = true;
+    other.draw(view, aov);
+    EXPECT_EQ(other.read_picture().rgb, first.rgb) << "AOVs change no colour";
+}
+
+/// Place of a pixel's first sample, in pixels from its bottom left corner: the one whose depth the AOVs hold.
+glm::vec2 first_sample(int samples) {
+    const gl::Texture texture(GL_RGBA16F, {4, 4, 0, 1, samples});
+    const gl::Framebuffer framebuffer({&texture}, nullptr);
+    framebuffer.bind(4, 4);
+    glm::vec2 place(0);
+    glGetMultisamplefv(GL_SAMPLE_POSITION, 0, &place.x);
+    return place;
+}
+
+TEST_F(Render, DepthOfFlatGroundIsTheClosedForm) {
+    auto world = small_world(flat_field(250));
+    world.scene.terrain.detail_m = 0;
+    Renderer renderer(std::move(world));
+    FrameSettings settings = small_frame();
+    settings.blades = settings.shells = settings.slices = false;
+    const double first = first_sample(settings.samples).y;
+    const double pitch = -35, eye = 1.8;
+    renderer.draw(view_from(renderer, {20, eye, 30}, pitch), settings);
+    const auto depth = renderer.read_aovs({"depth"});
+    const double radians = pitch * 3.14159265358979 / 180, focal = 0.5 * settings.height / std::tan(0.5 * 60 * 3.14159265358979 / 180);
+    for (int y = 0; y < settings.height; ++y) {
+        const double up = (0.5 * settings.height - y - 1 + first) / focal; // of the ray, for one metre ahead
+        const double falls = -(std::sin(radians) + up * std::cos(radians));
+        for (const int x : {0, 80, 159}) {
+            EXPECT_NEAR(depth.texels[static_cast<std::size_t>(y * settings.width + x)] / (eye / falls), 1, 2e-3) << y;
+        }
+    }
+}
+
+TEST_F(Render, StatsNameEveryPassAndCount) {
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -12);
+    renderer.draw(view, small_frame());
+    const auto stats = renderer.stats();
+    std::vector<std::string> names;
+    for (const auto& pass : stats.passes) {
+        names.push_back(pass.name);
+        EXPECT_GE(pass.gpu_ms, 0);
+        EXPECT_LT(pass.gpu_ms, 60000);
+        EXPECT_GE(pass.cpu_ms, 0);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"clipmap", "block samples", "terrain", "cull blades", "draw blades", "shells", "slices", "sky",
+                                               "resolve", "tone map"}));
+    EXPECT_GT(stats.blades_drawn, 100u);
+    EXPECT_LT(stats.blades_drawn, stats.blades_considered);
+    EXPECT_GT(stats.shell_fragments, 100u);
+    EXPECT_GT(stats.slice_fragments, 100u);
+    EXPECT_GT(stats.gpu_bytes, 160u * 90 * 4 * 12);
+
+    FrameSettings bare = small_frame();
+    bare.blades = bare.shells = false;
+    renderer.draw(view, bare);
+    const auto fewer = renderer.stats();
+    EXPECT_EQ(fewer.blades_drawn + fewer.blades_considered + fewer.shell_fragments, 0u);
+    EXPECT_EQ(fewer.passes.size(), names.size() - 3);
+}
+
+TEST_F(Render, TiersDrawWhatTheirNamesSay) {
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -20);
+    const auto tiers_of = [&](Tiers tiers) {
+        FrameSettings settings = small_frame();
+        settings.aov = true;
+        settings.tiers = tiers;
+        settings.blades_distance_m = settings.reference_distance_m = 12;
+        settings.reference_grid = 2;
+        renderer.draw(view, settings);
+        const auto image = renderer.read_aovs({"tier", "coverage"});
+        std::set<int> seen;
+        for (std::size_t i = 0; i < image.texels.size(); i += 2) {
+            seen.insert(static_cast<int>(image.texels[i]));
+            EXPECT_LE(image.texels[i + 1], 1.0001f); // coverage: averaged, not added up
+        }
+        return seen;
+    };
+    EXPECT_EQ(tiers_of(Tiers::kBlades), (std::set<int>{0, 2, 7}));
+    EXPECT_EQ(tiers_of(Tiers::kReference), (std::set<int>{0, 2, 7}));
+    const auto shells = tiers_of(Tiers::kShells);
+    EXPECT_TRUE(shells.count(3) && !shells.count(2));
+}
+
+TEST_F(Render, LeavesNothingBehind) {
+    const auto live_objects = [] {
+        int live = 0;
+        for (GLuint name = 1; name < 2000; ++name) {
+            live += glIsTexture(name) + glIsBuffer(name) + glIsProgram(name) + glIsShader(name) + glIsVertexArray(name) + glIsFramebuffer(name) +
+                    glIsQuery(name);
+        }
+        return live;
+    };
+    const std::uint64_t bytes = gl::gpu_bytes();
+    std::vector<int> objects;
+    for (int round = 0; round < 3; ++round) {
+        Renderer renderer(small_world());
+        FrameSettings settings = small_frame();
+        for (const bool aov : {false, true}) {
+            settings.aov = aov;
+            renderer.draw(view_from(renderer, {20, 1.5, 30}, -12), settings);
+        }
+        EXPECT_GT(gl::gpu_bytes(), bytes + 1000000);
+        objects.push_back(live_objects());
+    }
+    EXPECT_EQ(gl::gpu_bytes(), bytes);
+    EXPECT_EQ(objects[2], objects[1]); // every round would add its own
+    EXPECT_LT(live_objects(), 12);     // drivers hold on to a program or two that were drawn with last
+}
+
+TEST_F(Render, ResizeStormLeavesNoError) {
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -12);
+    FrameSettings settings = small_frame();
+    const glm::ivec2 sizes[] = {{160, 90}, {1, 1}, {33, 17}, {90, 160}, {2, 120}, {160, 90}};
+    std::uint64_t at_start = 0;
+    for (int round = 0; round < 12; ++round) {
+        settings.width = sizes[round % 6].x;
+        settings.height = sizes[round % 6].y;
+        settings.samples = 1 << (round % 3);
+        settings.aov = round % 4 == 1;
+        renderer.draw(view, settings);
+        const auto picture = renderer.read_picture();
+        EXPECT_EQ(picture.rgb.size(), static_cast<std::size_t>(settings.width * settings.height * 3));
+        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)) << round;
+        if (round == 0) {
+            at_start = renderer.stats().gpu_bytes;
+        }
+    }
+    settings = small_frame();
+    settings.samples = 1;
+    renderer.draw(view, settings);
+    EXPECT_LT(renderer.stats().gpu_bytes, at_start + 8000000); // targets come and go
+}
+
+TEST_F(Render, OverTheLimitIsRefusedAndTheRendererLivesOn) {
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -12);
+    for (const auto& [width, height, samples] : {std::tuple{0, 90, 4}, {160, 1 << 20, 4}, {160, 90, 0}, {160, 90, 4096}}) {
+        FrameSettings settings = small_frame();
+        settings.width = width;
+        settings.height = height;
+        settings.samples = samples;
+        try {
+            renderer.draw(view, settings);
+            ADD_FAILURE() << width << "x" << height << " with " << samples << " samples was drawn";
+        } catch (const base::Error& error) {
+            EXPECT_EQ(error.code(), base::ExitCode::kOverLimit) << error.what();
+        }
+    }
+    renderer.draw(view, small_frame());
+    EXPECT_GT(renderer.stats().blades_drawn, 0u);
+}
+
+TEST_F(Render, ReloadNeedsNoRestartAndFailsSoftly) {
+    const ShaderCopy shaders;
+    Renderer renderer(small_world());
+    const auto view = view_from(renderer, {20, 1.5, 30}, -12);
+    renderer.draw(view, small_frame());
+    const auto before = renderer.read_picture().rgb;
+    shaders.append("lib/grass_surface.glsl", "broken\n");
+    const auto failures = renderer.reload_shaders();
+    forgive_messages();
+    EXPECT_EQ(failures.size(), 3u); // blades, shells, slices
+    for (const std::string& failure : failures) {
+        EXPECT_NE(failure.find("lib/grass_surface.glsl:"), std::string::npos) << failure;
+    }
+    renderer.draw(view, small_frame());
+    EXPECT_EQ(renderer.read_picture().rgb, before);
+    shaders.restore("lib/grass_surface.glsl");
+    EXPECT_TRUE(renderer.reload_shaders().empty());
+    renderer.draw(view, small_frame());
+    EXPECT_EQ(renderer.read_picture().rgb, before);
+}
+
+TEST_F(Render, PresentCopiesThePicture) {
+    Renderer renderer(small_world());
+    renderer.draw(view_from(renderer, {20, 1.5, 30}, -12), small_frame());
+    const gl::Texture window(GL_RGBA8, {200, 100});
+    const gl::Framebuffer framebuffer({&window}, nullptr);
+    renderer.present(framebuffer.id(), 30, 5);
+    const auto texels = window.read_floats(4);
+    const auto picture = renderer.read_picture();
+    for (int y = 0; y < 90; ++y) {
+        for (int x = 0; x < 160; ++x) {
+            const float red = texels[static_cast<std::size_t>(((y + 5) * 200 + x + 30) * 4)];
+            ASSERT_NEAR(255 * red, picture.rgb[static_cast<std::size_t>(((89 - y) * 160 + x) * 3)], 0.01) << x << " " << y;
+        }
+    }
+}
+
+// ---- screen passes
+
+TEST_F(Render, ResolveAndToneMapOfAKnownColour) {
+    render::Targets targets;
+    targets.require(16, 8, 4, false);
+    render::ScreenPasses passes(false);
+    const glm::vec4 colours[] = {{0.5f, 0.125f, 2.0f, 1.0f}, {0.25f, 0.5f, 0.0f, 0.0f}};
+    const float near = 0.25f; // reversed depth: kNear_m / 0.25 metres ahead
+    for (int picture = 0; picture < 2; ++picture) {
+        targets.bind_scene();
+        glDepthMask(GL_TRUE);
+        glClearBufferfv(GL_COLOR, 0, &colours[picture].x);
+        glClearBufferfv(GL_DEPTH, 0, &near);
+        passes.resolve(targets, 4, 0.5f, picture == 0);
+    }
+    passes.tone_map(targets, 0.8f);
+    const glm::vec4 mean = 0.5f * (colours[0] + colours[1]);
+    const auto colour = targets.color().read_floats(4);
+    const auto data = targets.data().read_floats(4);
+    const auto shown = targets.picture().read_floats(4);
+    const glm::vec3 expected = shared::srgb_encode(shared::tone_map(glm::vec3(mean) * 0.8f));
+    for (std::size_t i = 0; i < colour.size(); i += 4) {
+        for (std::size_t c = 0; c < 4; ++c) {
+            EXPECT_NEAR(colour[i + c], mean[static_cast<int>(c)], 2e-3);
+        }
+        EXPECT_NEAR(data[i], shared::kNear_m / near, 1e-6);
+        for (std::size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(shown[i + c], expected[static_cast<int>(c)], 1.6 / 255); // rounding and a step of dither
+        }
+        EXPECT_EQ(shown[i + 3], 1.0f);
+    }
+}
+
+} // namespace
+} // namespace sward::tests
