@@ -38,12 +38,16 @@ protected:
         EXPECT_EQ(cull_.batches(), 1u);
         cull_.execute(0);
         Survivors out;
+        places_.clear();
         const auto all = cull_.survivors().read_all<glm::uvec2>(blades::CullPass::kBatch * CULL_GROUP);
         for (const auto& command : cull_.commands().read_all<shared::DrawCommand>(static_cast<std::size_t>(cull_.command_count()))) {
             EXPECT_EQ(command.instances, 1u);
             EXPECT_EQ(command.base_instance, 0u);
             EXPECT_LE(command.vertices, static_cast<unsigned>(CULL_GROUP));
-            out.insert(out.end(), all.begin() + command.first, all.begin() + command.first + command.vertices);
+            for (unsigned n = command.first; n < command.first + command.vertices; ++n) {
+                out.push_back(all[n]);
+                places_.push_back(static_cast<int>(n));
+            }
         }
         return out;
     }
@@ -56,6 +60,7 @@ protected:
     gl::Buffer records_;
     blades::TileList list_;
     blades::CullPass cull_;
+    std::vector<int> places_; ///< of the survivors in their buffer
 };
 
 /// Distance by which a blade is inside (positive) or outside the sphere test of cull.comp, in clip units.
@@ -181,7 +186,7 @@ protected:
         glDeleteVertexArrays(1, &vertex_array_);
         glDeleteQueries(1, &query_);
     }
-    /// Triangles of the survivor at `place` in the survivors' buffer.
+    /// Triangles of the survivor at `place` of the buffer.
     std::vector<Vertex> tessellate(int place) {
         glUseProgram(program_);
         glBindVertexArray(vertex_array_);
@@ -223,13 +228,8 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
     select();
     const Survivors survivors = cull();
     int folded = 0, posed = 0, checked = 0;
-    for (int place = 0; place < static_cast<int>(survivors.size()); place += 7) {
-        // Segments of the buffer are not dense: read the blade from the place that is drawn.
-        glm::uvec2 which{0};
-        cull_.survivors().read(&which, sizeof(which), static_cast<std::size_t>(place) * sizeof(which));
-        if (which.x >= list_.tiles.size() || which.y >= world_.set.blades.size()) {
-            continue;
-        }
+    for (std::size_t n = 0; n < survivors.size(); n += 7) {
+        const glm::uvec2 which = survivors[n];
         const BladeRecord& blade = world_.set.blades[which.y];
         const vec3 at = root(which);
         const float distance = glm::distance(at, vec3(world_.frame.lod_eye));
@@ -237,7 +237,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         vec3 v1(blade.v1), v2(blade.v2);
         shared::pose_blade(v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
                            shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z)));
-        const auto vertices = tessellate(place);
+        const auto vertices = tessellate(places_[n]);
         ASSERT_GE(vertices.size(), 12u);
         std::set<float> rows;
         bool middle = false;

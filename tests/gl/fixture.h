@@ -16,6 +16,7 @@
 #include "gl/buffer.h"
 #include "gl/context.h"
 #include "gl/program.h"
+#include "gl/shader_source.h"
 #include "gl/synthetic.h"
 #include "shared/bindings.h"
 #include "shared/frame.h"
@@ -49,11 +50,11 @@ public:
     ShaderCopy() {
         std::string name = (std::filesystem::temp_directory_path() / "sward_shaders_XXXXXX").string();
         path_ = ::mkdtemp(name.data());
-        std::filesystem::copy(std::filesystem::path(SWARD_SOURCE_DIR) / "shaders", path_, std::filesystem::copy_options::recursive);
+        std::filesystem::copy(original_, path_, std::filesystem::copy_options::recursive);
         ::setenv("SWARD_SHADERS", path_.c_str(), 1);
     }
     ~ShaderCopy() {
-        ::unsetenv("SWARD_SHADERS");
+        ::setenv("SWARD_SHADERS", original_.c_str(), 1);
         std::filesystem::remove_all(path_);
     }
     ShaderCopy(const ShaderCopy&) = delete;
@@ -71,11 +72,11 @@ public:
         return lines + 1;
     }
     void restore(const std::string& name) const {
-        std::filesystem::copy_file(std::filesystem::path(SWARD_SOURCE_DIR) / "shaders" / name, path_ / name,
-                                   std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::copy_file(original_ / name, path_ / name, std::filesystem::copy_options::overwrite_existing);
     }
 
 private:
+    std::filesystem::path original_ = gl::shader_directory();
     std::filesystem::path path_;
 };
 

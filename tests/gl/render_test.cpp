@@ -11,6 +11,7 @@
 #include "render/renderer.h"
 #include "render/screen_passes.h"
 #include "shared/tone.h"
+#include "shells/far_appearance.h"
 
 namespace sward::tests {
 namespace {
@@ -288,6 +289,27 @@ TEST_F(Render, PresentCopiesThePicture) {
             const float red = texels[static_cast<std::size_t>(((y + 5) * 200 + x + 30) * 4)];
             ASSERT_NEAR(255 * red, picture.rgb[static_cast<std::size_t>(((89 - y) * 160 + x) * 3)], 0.01) << x << " " << y;
         }
+    }
+}
+
+TEST_F(Render, FarAppearanceIsUsableAllOverTheHemisphere) {
+    const grass::GrassSet set = synthetic_set();
+    shells::FarAppearance appearance(set);
+    const wind::Wind wind(SmallWorld::breeze(), 0.1);
+    std::vector<float> before;
+    for (const float height : {-0.1f, 0.05f, 0.6f, 1.0f}) {
+        appearance.update(daylight({std::sqrt(1 - height * height), height, 0}), wind.field({0, 0}, 0));
+        appearance.bind();
+        GLint id = 0;
+        glGetIntegeri_v(GL_TEXTURE_BINDING_2D, TEX_FAR_APPEARANCE, &id);
+        std::vector<float> texels(4 * shells::FarAppearance::kAzimuths * shells::FarAppearance::kElevations);
+        glGetTextureImage(static_cast<GLuint>(id), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
+        for (const float texel : texels) {
+            ASSERT_TRUE(std::isfinite(texel) && texel >= 0) << "sun at " << height;
+        }
+        EXPECT_LE(texels.back(), 1.0f); // coverage
+        EXPECT_NE(texels, before);
+        before = texels;
     }
 }
 

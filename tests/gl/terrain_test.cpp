@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ground on the GPU held to its CPU twin: clipmap, block samples, wind; and no holes between blocks or levels.
 #include <cmath>
+#include <map>
 #include <random>
 
 #include "gl/fixture.h"
@@ -168,12 +169,55 @@ std::vector<shared::BlockSample> read_samples(std::size_t blocks) {
     return samples;
 }
 
+std::vector<terrain::VisibleBlock> all_blocks(const SmallWorld& world) {
+    const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
+    return visible_blocks(world.clipmap, world.surface, everything, world.anchor, glm::vec3(world.frame.eye));
+}
+
+/// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there must be no crack.
+TEST_F(Terrain, LevelsMeetWithoutCracks) {
+    SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
+    const auto blocks = all_blocks(world);
+    terrain::BlockSamples pass;
+    pass.execute(blocks);
+    const auto samples = read_samples(blocks.size());
+    std::map<std::tuple<int, long, long>, float> heights; // level, place in centimetres
+    const auto key = [](int level, glm::vec2 place) { return std::tuple(level, std::lround(100.0 * place.x), std::lround(100.0 * place.y)); };
+    const auto place_of = [&](std::size_t n) {
+        const terrain::VisibleBlock& block = blocks[n / shared::kBlockPosts];
+        const int post = static_cast<int>(n % shared::kBlockPosts);
+        return block.corner + block.cell * glm::vec2(post % 9, post / 9);
+    };
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        const auto [it, fresh] = heights.emplace(key(blocks[n / shared::kBlockPosts].level, place_of(n)), samples[n].ground.x);
+        ASSERT_TRUE(fresh || it->second == samples[n].ground.x) << "blocks of one level disagree";
+    }
+    int corners = 0, middles = 0;
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+        const terrain::VisibleBlock& block = blocks[n / shared::kBlockPosts];
+        const glm::vec2 place = place_of(n);
+        if (const auto fine = heights.find(key(block.level - 1, place)); fine != heights.end()) {
+            ASSERT_NEAR(fine->second, samples[n].ground.x, 1e-3) << "level " << block.level;
+            ++corners;
+        }
+        for (const glm::vec2& step : {glm::vec2(block.cell, 0), glm::vec2(0, block.cell)}) {
+            const auto fine = heights.find(key(block.level - 1, place + 0.5f * step));
+            const auto next = heights.find(key(block.level, place + step));
+            if (fine != heights.end() && next != heights.end()) {
+                ASSERT_NEAR(fine->second, 0.5 * (samples[n].ground.x + next->second), 2e-3) << "level " << block.level;
+                ++middles;
+            }
+        }
+    }
+    EXPECT_GT(corners, 4 * 64);
+    EXPECT_GT(middles, 4 * 64);
+}
+
 TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
     SmallWorld world(hilly_field(), 0.8, even_mask(0.25f), {123.4, 345, -321.5});
     world.frame.grass.y = 0.8f; // the scene's density
     world.upload();
-    const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
-    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor, glm::vec3(world.frame.eye));
+    const auto blocks = all_blocks(world);
     EXPECT_EQ(blocks.size(), 256u + 192u * static_cast<std::size_t>(world.clipmap.levels() - 1)); // a quarter is the finer level's
     terrain::BlockSamples pass;
     pass.execute(blocks);

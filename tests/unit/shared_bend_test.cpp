@@ -137,6 +137,17 @@ TEST(Bend, OffsetFollowsTheWindAndKeepsDistanceToTheRoot) {
     }
 }
 
+TEST(Bend, TurnIsTheOffsetsDerivative) {
+    const vec2 wind(3.0f, -4.0f);
+    for (const float y : {0.02f, 0.1f, 0.29f}) {
+        const float step = 2e-3f;
+        const vec3 along = vec3(0.0f, 1.0f, 0.0f) + (bend_offset(y + step, 0.3f, wind, 0.1f) - bend_offset(y - step, 0.3f, wind, 0.1f)) / (2 * step);
+        EXPECT_LT(glm::length(bend_turn(y, 0.3f, wind, 0.1f) - along), 1e-3f) << y;
+        EXPECT_NEAR(glm::length(bend_turn(y, 0.3f, wind, 0.1f)), 1.0f, 1e-6f);
+    }
+    EXPECT_EQ(bend_turn(0.2f, 0.3f, vec2(0.0f), 0.1f), vec3(0.0f, 1.0f, 0.0f));
+}
+
 TEST(Bend, GroupedAndShellLeanAlikeToFirstOrder) {
     const vec2 breeze(0.3f, 0.0f);
     const float shell = bend_offset(0.3f, 0.3f, breeze, 0.1f).x;
