@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Near blades: what the cull pass keeps and what the tessellator makes, against the same functions in C++.
+// Near blades: what the cull pass keeps and what the tessellator makes, against the same functions
+// in C++.
 #include <cmath>
 #include <map>
 #include <set>
@@ -28,8 +29,10 @@ protected:
           records_(gl::Buffer::of(std::span<const BladeRecord>(world_.set.blades))) {}
 
     void select() {
-        list_ = blades::select_tiles(world_.set, world_.surface, terrain::Frustum(world_.frame.clip_from_world),
-                                     {world_.anchor, vec3(world_.frame.lod_eye), vec2(world_.frame.handover), world_.frame.mode.x});
+        list_ = blades::select_tiles(world_.set, world_.surface,
+                                     terrain::Frustum(world_.frame.clip_from_world),
+                                     {world_.anchor, vec3(world_.frame.lod_eye),
+                                      vec2(world_.frame.handover), world_.frame.mode.x});
         cull_.upload(list_);
     }
     /// Survivors in the order of the draw.
@@ -39,8 +42,10 @@ protected:
         cull_.execute(0);
         Survivors out;
         places_.clear();
-        const auto all = cull_.survivors().read_all<glm::uvec2>(blades::CullPass::kBatch * CULL_GROUP);
-        for (const auto& command : cull_.commands().read_all<shared::DrawCommand>(static_cast<std::size_t>(cull_.command_count()))) {
+        const auto all =
+            cull_.survivors().read_all<glm::uvec2>(blades::CullPass::kBatch * CULL_GROUP);
+        for (const auto& command : cull_.commands().read_all<shared::DrawCommand>(
+                 static_cast<std::size_t>(cull_.command_count()))) {
             EXPECT_EQ(command.instances, 1u);
             EXPECT_EQ(command.base_instance, 0u);
             EXPECT_LE(command.vertices, static_cast<unsigned>(CULL_GROUP));
@@ -63,18 +68,21 @@ protected:
     std::vector<int> places_; ///< of the survivors in their buffer
 };
 
-/// Distance by which a blade is inside (positive) or outside the sphere test of cull.comp, in clip units.
+/// Distance by which a blade is inside (positive) or outside the sphere test of cull.comp, in clip
+/// units.
 float view_margin(const glm::mat4& clip_from_world, vec3 root, float reach) {
     const vec4 clip = clip_from_world * vec4(root, 1);
     const glm::mat4 rows = glm::transpose(clip_from_world);
-    return std::min({clip.w + reach, clip.w + reach * (1 + glm::length(vec3(rows[0]))) - std::abs(clip.x),
+    return std::min({clip.w + reach,
+                     clip.w + reach * (1 + glm::length(vec3(rows[0]))) - std::abs(clip.x),
                      clip.w + reach * (1 + glm::length(vec3(rows[1]))) - std::abs(clip.y)});
 }
 
 class Cull : public Blades {
 protected:
     explicit Cull(float density = 1) : Blades(density) {}
-    /// Compares with a brute force over everything the list holds; decisions on a knife's edge may fall either way.
+    /// Compares with a brute force over everything the list holds; decisions on a knife's edge may
+    /// fall either way.
     void expect_brute_force(const Survivors& survivors, float density) {
         std::set<std::pair<unsigned, unsigned>> kept;
         for (const glm::uvec2& s : survivors) {
@@ -82,12 +90,19 @@ protected:
         }
         int expected = 0;
         for (const glm::uvec2& item : list_.items) {
-            for (unsigned b = item.y; b < std::min(item.y + CULL_GROUP, static_cast<unsigned>(list_.tiles[item.x].place.z)); ++b) {
+            for (unsigned b = item.y;
+                 b <
+                 std::min(item.y + CULL_GROUP, static_cast<unsigned>(list_.tiles[item.x].place.z));
+                 ++b) {
                 const BladeRecord& blade = world_.set.blades[b];
                 const vec3 at = root({item.x, b});
                 const vec2 band(world_.frame.handover);
-                const float d = glm::distance(at, vec3(world_.frame.lod_eye)), margin = view_margin(world_.frame.clip_from_world, at, blade.shape.y);
-                const auto near = [&](float distance) { return shared::handover_may_be_near(blade.root.z, distance, band, world_.frame.mode.x); };
+                const float d = glm::distance(at, vec3(world_.frame.lod_eye)),
+                            margin = view_margin(world_.frame.clip_from_world, at, blade.shape.y);
+                const auto near = [&](float distance) {
+                    return shared::handover_may_be_near(blade.root.z, distance, band,
+                                                        world_.frame.mode.x);
+                };
                 if (std::abs(margin) < 1e-3f || near(d - 1e-3f) != near(d + 1e-3f)) {
                     continue;
                 }
@@ -103,7 +118,8 @@ protected:
 };
 
 TEST_F(Cull, SurvivorsEqualBruteForceInEveryMode) {
-    for (const int mode : {shared::kHandoverRank, shared::kHandoverOff, shared::kHandoverHard, shared::kHandoverFade}) {
+    for (const int mode : {shared::kHandoverRank, shared::kHandoverOff, shared::kHandoverHard,
+                           shared::kHandoverFade}) {
         SCOPED_TRACE(mode);
         world_.frame.mode.x = mode;
         world_.upload();
@@ -160,9 +176,12 @@ static_assert(sizeof(Vertex) == 48);
 /// The blade program without its fragments, its tessellated vertices captured.
 class CapturedBlades : public Blades {
 protected:
-    CapturedBlades() : captured_(kMaxVertices * sizeof(Vertex)), picture_(GL_RGBA8, {8, 8}), framebuffer_({&picture_}, nullptr) {
+    CapturedBlades()
+        : captured_(kMaxVertices * sizeof(Vertex)), picture_(GL_RGBA8, {8, 8}),
+          framebuffer_({&picture_}, nullptr) {
         program_ = glCreateProgram();
-        for (const auto& [path, stage] : {std::pair{"blades/blade.vert", GL_VERTEX_SHADER}, {"blades/blade.tesc", GL_TESS_CONTROL_SHADER},
+        for (const auto& [path, stage] : {std::pair{"blades/blade.vert", GL_VERTEX_SHADER},
+                                          {"blades/blade.tesc", GL_TESS_CONTROL_SHADER},
                                           {"blades/blade.tese", GL_TESS_EVALUATION_SHADER}}) {
             const std::string text = gl::expand_shader(path, {}).text;
             const char* source = text.c_str();
@@ -214,14 +233,17 @@ protected:
 };
 
 /// J8 in C++: place u across and v along a posed blade. Width correction as in blade.tese.
-vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade, vec3 root, vec3 v1, vec3 v2, vec2 uv) {
+vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade, vec3 root,
+                   vec3 v1, vec3 v2, vec2 uv) {
     const vec3 centre = root + shared::blade_curve(v1, v2, uv.y);
     const vec3 across = shared::blade_width_direction(blade.shape.x);
     const vec3 normal = glm::normalize(glm::cross(shared::blade_tangent(v1, v2, uv.y), across));
-    const float pixels = 2 * blade.v1.w * frame.eye.w / std::max(glm::distance(centre, vec3(frame.eye)), 0.05f);
+    const float pixels =
+        2 * blade.v1.w * frame.eye.w / std::max(glm::distance(centre, vec3(frame.eye)), 0.05f);
     const float thin = 1 - glm::clamp((pixels - frame.handover.z) / frame.handover.w, 0.0f, 1.0f);
     const float t = glm::mix(shared::blade_outline(uv.x, uv.y), uv.x, thin * thin);
-    return centre + across * (blade.v1.w * (2 * t - 1)) + normal * (blade.v1.w * (0.5f - std::abs(uv.x - 0.5f)) * (1 - uv.y));
+    return centre + across * (blade.v1.w * (2 * t - 1)) +
+           normal * (blade.v1.w * (0.5f - std::abs(uv.x - 0.5f)) * (1 - uv.y));
 }
 
 TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
@@ -233,10 +255,12 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         const BladeRecord& blade = world_.set.blades[which.y];
         const vec3 at = root(which);
         const float distance = glm::distance(at, vec3(world_.frame.lod_eye));
-        const float shell = shared::pose_share(blade.root.z, distance, vec2(world_.frame.pose_band));
+        const float shell =
+            shared::pose_share(blade.root.z, distance, vec2(world_.frame.pose_band));
         vec3 v1(blade.v1), v2(blade.v2);
-        shared::pose_blade(v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
-                           shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z)));
+        shared::pose_blade(
+            v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
+            shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z)));
         const auto vertices = tessellate(places_[n]);
         ASSERT_GE(vertices.size(), 12u);
         std::set<float> rows;
@@ -244,12 +268,16 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         for (const Vertex& vertex : vertices) {
             float best = 1e9f;
             for (const float u : {0.0f, 0.5f, 1.0f}) {
-                const float off = glm::distance(vertex.world, blade_surface(world_.frame, blade, at, v1, v2, {u, vertex.along.x}));
+                const float off =
+                    glm::distance(vertex.world, blade_surface(world_.frame, blade, at, v1, v2,
+                                                              {u, vertex.along.x}));
                 middle |= u == 0.5f && off < best && off < 1e-4f;
                 best = std::min(best, off);
             }
             ASSERT_LT(best, 1e-4f) << "blade " << which.y << " at v " << vertex.along.x;
-            const float rest = shared::blade_curve(vec3(blade.v1), vec3(blade.v2), vertex.along.x).y / world_.set.canopy_m;
+            const float rest =
+                shared::blade_curve(vec3(blade.v1), vec3(blade.v2), vertex.along.x).y /
+                world_.set.canopy_m;
             ASSERT_NEAR(vertex.along.y, rest, 1e-5f);
             ASSERT_NEAR(vertex.own.z, distance, 1e-4f);
             ASSERT_EQ(vec2(vertex.own), vec2(blade.root.z, blade.root.w));

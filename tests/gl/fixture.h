@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every GL test stands on: a context whose debug messages are failures, a copy of the shaders to meddle with, and frame
-// constants made without the renderer.
+// What every GL test stands on: a context whose debug messages are failures, a copy of the shaders
+// to meddle with, and frame constants made without the renderer.
 #pragma once
 
 #include <cstdlib>
@@ -36,7 +36,8 @@ protected:
     /// For tests that provoke the driver on purpose.
     void forgive_messages() {
         messages_ = {};
-        while (glGetError() != GL_NO_ERROR) {}
+        while (glGetError() != GL_NO_ERROR) {
+        }
     }
 
 private:
@@ -48,7 +49,8 @@ private:
 class ShaderCopy {
 public:
     ShaderCopy() {
-        std::string name = (std::filesystem::temp_directory_path() / "sward_shaders_XXXXXX").string();
+        std::string name =
+            (std::filesystem::temp_directory_path() / "sward_shaders_XXXXXX").string();
         path_ = ::mkdtemp(name.data());
         std::filesystem::copy(original_, path_, std::filesystem::copy_options::recursive);
         ::setenv("SWARD_SHADERS", path_.c_str(), 1);
@@ -60,7 +62,9 @@ public:
     ShaderCopy(const ShaderCopy&) = delete;
     ShaderCopy& operator=(const ShaderCopy&) = delete;
 
-    void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name) << text;
+    }
     /// Adds lines to a file; returns the number of the first.
     int append(const std::string& name, const std::string& text) const {
         std::ifstream in(path_ / name);
@@ -72,7 +76,8 @@ public:
         return lines + 1;
     }
     void restore(const std::string& name) const {
-        std::filesystem::copy_file(original_ / name, path_ / name, std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::copy_file(original_ / name, path_ / name,
+                                   std::filesystem::copy_options::overwrite_existing);
     }
 
 private:
@@ -80,8 +85,11 @@ private:
     std::filesystem::path path_;
 };
 
-/// Runs `body` on the GPU once an input: it reads vec4 `a` and writes vec4 `b`, with `includes` before it.
-inline std::vector<glm::vec4> run_probe(const ShaderCopy& shaders, const std::vector<std::string>& includes, const std::string& body,
+/// Runs `body` on the GPU once an input: it reads vec4 `a` and writes vec4 `b`, with `includes`
+/// before it.
+inline std::vector<glm::vec4> run_probe(const ShaderCopy& shaders,
+                                        const std::vector<std::string>& includes,
+                                        const std::string& body,
                                         const std::vector<glm::vec4>& inputs) {
     std::string text;
     for (const std::string& include : includes) {
@@ -90,8 +98,10 @@ inline std::vector<glm::vec4> run_probe(const ShaderCopy& shaders, const std::ve
     text += "layout(local_size_x = 64) in;\n"
             "layout(std430, binding = 6) readonly buffer ProbeIn { vec4 probe_in[]; };\n"
             "layout(std430, binding = 7) writeonly buffer ProbeOut { vec4 probe_out[]; };\n"
-            "void main() {\n    uint i = gl_GlobalInvocationID.x;\n    if (i >= uint(probe_in.length())) { return; }\n"
-            "    vec4 a = probe_in[i];\n    vec4 b = vec4(0.0);\n" + body + "\n    probe_out[i] = b;\n}\n";
+            "void main() {\n    uint i = gl_GlobalInvocationID.x;\n    if (i >= "
+            "uint(probe_in.length())) { return; }\n"
+            "    vec4 a = probe_in[i];\n    vec4 b = vec4(0.0);\n" +
+            body + "\n    probe_out[i] = b;\n}\n";
     shaders.write("probe.comp", text);
     const gl::Program program("probe", {"probe.comp"});
     const auto in = gl::Buffer::of(std::span<const glm::vec4>(inputs));
@@ -116,19 +126,25 @@ inline glm::mat4 wide_view(glm::vec3 eye) {
 
 /// A small world on the GPU: ground, wind and grass, an eye over them, and constants for both.
 struct SmallWorld {
-    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in, glm::dvec3 eye_at)
-        : surface(std::move(field), relief_m), mask(std::move(mask_in)), clipmap(surface, mask), wind(breeze(), 0.1), set(synthetic_set()) {
+    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in,
+               glm::dvec3 eye_at)
+        : surface(std::move(field), relief_m), mask(std::move(mask_in)), clipmap(surface, mask),
+          wind(breeze(), 0.1), set(synthetic_set()) {
         clipmap.update({eye_at.x, eye_at.z});
         clipmap.bind();
-        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y), std::round(eye_at.z / 64) * 64};
+        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y),
+                  std::round(eye_at.z / 64) * 64};
         const glm::vec3 eye(eye_at - anchor);
         frame.clip_from_world = wide_view(eye);
         frame.world_from_clip = glm::inverse(frame.clip_from_world);
         frame.eye = frame.lod_eye = glm::vec4(eye, 400);
         frame.viewport = {160, 90, 1.0 / 160, 1.0 / 90};
-        const glm::dvec2 flat(anchor.x, anchor.z), tile = glm::floor(flat / static_cast<double>(set.side_m));
-        frame.patch_grid = glm::vec4(glm::vec2(flat - tile * static_cast<double>(set.side_m)), set.side_m, set.canopy_m);
-        frame.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
+        const glm::dvec2 flat(anchor.x, anchor.z),
+            tile = glm::floor(flat / static_cast<double>(set.side_m));
+        frame.patch_grid = glm::vec4(glm::vec2(flat - tile * static_cast<double>(set.side_m)),
+                                     set.side_m, set.canopy_m);
+        frame.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants,
+                            static_cast<int>(set.levels.size())};
         frame.grass = {set.offset_range_m, 1, 1, anchor.y};
         frame.mode = {shared::kHandoverRank, -1, 0, 0};
         frame.handover = {4, 9, 0.1f, 0.35f};
@@ -154,7 +170,9 @@ struct SmallWorld {
         frame_buffer.bind_uniform(BIND_FRAME);
     }
     /// World metres of an anchor-relative place.
-    [[nodiscard]] glm::dvec2 world(glm::vec2 place) const { return glm::dvec2(place) + glm::dvec2(anchor.x, anchor.z); }
+    [[nodiscard]] glm::dvec2 world(glm::vec2 place) const {
+        return glm::dvec2(place) + glm::dvec2(anchor.x, anchor.z);
+    }
 
     static constexpr double kTime_s = 12.5;
     terrain::Surface surface;

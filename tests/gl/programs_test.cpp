@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shaders: every variant builds, what the driver reflects is what the shared headers say, errors name file and line.
+// Shaders: every variant builds, what the driver reflects is what the shared headers say, errors
+// name file and line.
 #include <cstddef>
 #include <map>
 #include <set>
@@ -20,8 +21,10 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-    std::vector<Variant> all = {{{"terrain/clipmap_height.comp"}, {}}, {{"terrain/clipmap_surface.comp"}, {}},
-                                {{"terrain/block_samples.comp"}, {}},  {{"blades/cull.comp"}, {}},
+    std::vector<Variant> all = {{{"terrain/clipmap_height.comp"}, {}},
+                                {{"terrain/clipmap_surface.comp"}, {}},
+                                {{"terrain/block_samples.comp"}, {}},
+                                {{"blades/cull.comp"}, {}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
@@ -38,7 +41,9 @@ std::vector<Variant> variants() {
     return all;
 }
 
-gl::Program build(const Variant& variant) { return {variant.stages.back().string(), variant.stages, variant.defines}; }
+gl::Program build(const Variant& variant) {
+    return {variant.stages.back().string(), variant.stages, variant.defines};
+}
 
 std::string resource_name(GLuint program, GLenum interface, GLuint index) {
     char name[256];
@@ -77,39 +82,57 @@ TEST_F(Programs, TheVariantsHoldEveryEntryPoint) {
     for (const auto& entry : fs::recursive_directory_iterator(root)) {
         const std::string extension = entry.path().extension().string();
         if (entry.is_regular_file() && extension != ".h" && extension != ".glsl") {
-            EXPECT_TRUE(known.count(fs::relative(entry.path(), root))) << entry.path() << ": add it to the variants above";
+            EXPECT_TRUE(known.count(fs::relative(entry.path(), root)))
+                << entry.path() << ": add it to the variants above";
         }
     }
 }
 
 TEST_F(Programs, BlocksAreBoundByTheirNames) {
-    const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME}, {"SurfaceBlock", BIND_SURFACE}};
+    const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME},
+                                                         {"SurfaceBlock", BIND_SURFACE}};
     const std::map<std::string, GLint> storage_blocks = {
-        {"Blades", BIND_BLADES}, {"Tiles", BIND_BLADE_TILES}, {"Items", BIND_CULL_ITEMS}, {"Survivors", BIND_SURVIVORS},
-        {"Commands", BIND_DRAW_COMMANDS}, {"Total", BIND_CULL_TOTAL}, {"Blocks", BIND_TERRAIN_BLOCKS},
-        {"Instances", BIND_FAR_INSTANCES}, {"Samples", BIND_BLOCK_SAMPLES}};
+        {"Blades", BIND_BLADES},          {"Tiles", BIND_BLADE_TILES},
+        {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
+        {"Commands", BIND_DRAW_COMMANDS}, {"Total", BIND_CULL_TOTAL},
+        {"Blocks", BIND_TERRAIN_BLOCKS},  {"Instances", BIND_FAR_INSTANCES},
+        {"Samples", BIND_BLOCK_SAMPLES}};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
-        for (const auto& [interface, names] : {std::pair{GLenum{GL_UNIFORM_BLOCK}, uniform_blocks}, {GLenum{GL_SHADER_STORAGE_BLOCK}, storage_blocks}}) {
+        for (const auto& [interface, names] : {std::pair{GLenum{GL_UNIFORM_BLOCK}, uniform_blocks},
+                                               {GLenum{GL_SHADER_STORAGE_BLOCK}, storage_blocks}}) {
             for (GLint i = 0; i < resource_count(program.id(), interface); ++i) {
-                const std::string name = resource_name(program.id(), interface, static_cast<GLuint>(i));
+                const std::string name =
+                    resource_name(program.id(), interface, static_cast<GLuint>(i));
                 ASSERT_TRUE(names.count(name)) << name << " in " << program.name();
-                EXPECT_EQ(resource_value(program.id(), interface, static_cast<GLuint>(i), GL_BUFFER_BINDING), names.at(name)) << name;
+                EXPECT_EQ(resource_value(program.id(), interface, static_cast<GLuint>(i),
+                                         GL_BUFFER_BINDING),
+                          names.at(name))
+                    << name;
                 seen.insert(name);
             }
         }
     }
-    EXPECT_EQ(seen.size(), uniform_blocks.size() + storage_blocks.size()); // no name of the table is out of date
+    EXPECT_EQ(seen.size(),
+              uniform_blocks.size() + storage_blocks.size()); // no name of the table is out of date
 }
 
 TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
-    const std::map<std::string, GLint> units = {
-        {"clip_height", TEX_CLIP_HEIGHT}, {"clip_surface", TEX_CLIP_SURFACE}, {"heights", TEX_CLIP_HEIGHT}, {"far_images", TEX_FAR_IMAGES},
-        {"far_appearance", TEX_FAR_APPEARANCE}, {"elevation", TEX_ELEVATION}, {"mask", TEX_MASK}, {"scene_color", TEX_RESOLVE_COLOR},
-        {"scene_data", TEX_RESOLVE_DATA}, {"scene_tangent", TEX_RESOLVE_TANGENT}, {"scene_normal", TEX_RESOLVE_NORMAL},
-        {"scene_depth", TEX_RESOLVE_DEPTH}};
-    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_MULTISAMPLE};
+    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT},
+                                                {"clip_surface", TEX_CLIP_SURFACE},
+                                                {"heights", TEX_CLIP_HEIGHT},
+                                                {"far_images", TEX_FAR_IMAGES},
+                                                {"far_appearance", TEX_FAR_APPEARANCE},
+                                                {"elevation", TEX_ELEVATION},
+                                                {"mask", TEX_MASK},
+                                                {"scene_color", TEX_RESOLVE_COLOR},
+                                                {"scene_data", TEX_RESOLVE_DATA},
+                                                {"scene_tangent", TEX_RESOLVE_TANGENT},
+                                                {"scene_normal", TEX_RESOLVE_NORMAL},
+                                                {"scene_depth", TEX_RESOLVE_DEPTH}};
+    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
+                                      GL_SAMPLER_2D_MULTISAMPLE};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -121,7 +144,8 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
             }
             ASSERT_TRUE(units.count(name)) << name << " in " << program.name();
             GLint unit = -1;
-            glGetUniformiv(program.id(), resource_value(program.id(), GL_UNIFORM, index, GL_LOCATION), &unit);
+            glGetUniformiv(program.id(),
+                           resource_value(program.id(), GL_UNIFORM, index, GL_LOCATION), &unit);
             EXPECT_EQ(unit, units.at(name)) << name << " in " << program.name();
             seen.insert(name);
         }
@@ -130,10 +154,11 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
 }
 
 TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
-    const std::map<std::string, glm::ivec3> groups = {{"terrain/clipmap_height.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
-                                                      {"terrain/clipmap_surface.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
-                                                      {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
-                                                      {"blades/cull.comp", {CULL_GROUP, 1, 1}}};
+    const std::map<std::string, glm::ivec3> groups = {
+        {"terrain/clipmap_height.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
+        {"terrain/clipmap_surface.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
+        {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
+        {"blades/cull.comp", {CULL_GROUP, 1, 1}}};
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
         if (variant.stages[0].extension() == ".comp") {
@@ -144,7 +169,9 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         }
         EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();
         const bool aov = !variant.defines.empty() && variant.defines.back() == "AOV";
-        for (const auto& [name, location] : {std::pair{"out_data", OUT_DATA}, {"out_tangent", OUT_TANGENT}, {"out_normal", OUT_NORMAL}}) {
+        for (const auto& [name, location] : {std::pair{"out_data", OUT_DATA},
+                                             {"out_tangent", OUT_TANGENT},
+                                             {"out_normal", OUT_NORMAL}}) {
             const GLint found = glGetFragDataLocation(program.id(), name);
             EXPECT_TRUE(found == location || found == -1) << name << " in " << program.name();
             EXPECT_TRUE(!aov || found == location) << name << " in " << program.name();
@@ -172,24 +199,35 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.wind.waves[0]"), offsetof(FrameConstants, wind.waves));
     EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));
     const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
-    EXPECT_EQ(static_cast<std::size_t>(resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)), sizeof(FrameConstants));
+    EXPECT_EQ(static_cast<std::size_t>(
+                  resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)),
+              sizeof(FrameConstants));
 }
 
 TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
     const std::map<std::string, std::size_t> strides = {
-        {"blades[0].root", sizeof(shared::BladeRecord)},       {"tiles[0].place", sizeof(shared::BladeTile)},
-        {"items[0]", sizeof(glm::uvec2)},                      {"survivors[0]", sizeof(glm::uvec2)},
-        {"commands[0].vertices", sizeof(shared::DrawCommand)}, {"blocks[0].place", sizeof(shared::TerrainBlock)},
-        {"instances[0].place", sizeof(shared::FarInstance)},   {"samples[0].ground", sizeof(shared::BlockSample)}};
+        {"blades[0].root", sizeof(shared::BladeRecord)},
+        {"tiles[0].place", sizeof(shared::BladeTile)},
+        {"items[0]", sizeof(glm::uvec2)},
+        {"survivors[0]", sizeof(glm::uvec2)},
+        {"commands[0].vertices", sizeof(shared::DrawCommand)},
+        {"blocks[0].place", sizeof(shared::TerrainBlock)},
+        {"instances[0].place", sizeof(shared::FarInstance)},
+        {"samples[0].ground", sizeof(shared::BlockSample)}};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
         for (const auto& [name, bytes] : strides) {
-            const GLuint index = glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, name.c_str());
+            const GLuint index =
+                glGetProgramResourceIndex(program.id(), GL_BUFFER_VARIABLE, name.c_str());
             if (index != GL_INVALID_INDEX) {
                 seen.insert(name);
-                const GLenum what = name.find('.') == std::string::npos ? GL_ARRAY_STRIDE : GL_TOP_LEVEL_ARRAY_STRIDE;
-                EXPECT_EQ(static_cast<std::size_t>(resource_value(program.id(), GL_BUFFER_VARIABLE, index, what)), bytes) << name;
+                const GLenum what = name.find('.') == std::string::npos ? GL_ARRAY_STRIDE
+                                                                        : GL_TOP_LEVEL_ARRAY_STRIDE;
+                EXPECT_EQ(static_cast<std::size_t>(
+                              resource_value(program.id(), GL_BUFFER_VARIABLE, index, what)),
+                          bytes)
+                    << name;
             }
         }
     }
@@ -214,7 +252,9 @@ protected:
         forgive_messages(); // drivers may report what we broke
         GlTest::TearDown();
     }
-    static gl::Program tone_map() { return {"tone map", {"render/screen.vert", "render/tone_map.frag"}}; }
+    static gl::Program tone_map() {
+        return {"tone map", {"render/screen.vert", "render/tone_map.frag"}};
+    }
     static void expect_contains(const std::string& text, const std::string& part) {
         EXPECT_NE(text.find(part), std::string::npos) << text << "\nlacks " << part;
         EXPECT_EQ(text.find('\n'), std::string::npos) << "more than one line: " << text;
@@ -228,37 +268,45 @@ TEST_F(ShaderErrors, NameFileAndLineOfTheSource) {
 }
 
 TEST_F(ShaderErrors, NameTheIncludedFile) {
-    shaders_.write("shared/tone.h", "#define SHARED_TONE\n\nvec3 tone_map(vec3 c) { return c; }\nvec3 srgb_encode(vec3 c) { return c * oops; }\n");
+    shaders_.write("shared/tone.h", "#define SHARED_TONE\n\nvec3 tone_map(vec3 c) { return c; "
+                                    "}\nvec3 srgb_encode(vec3 c) { return c * oops; }\n");
     expect_contains(error_of([] { tone_map(); }), "shared/tone.h:4");
 }
 
 TEST_F(ShaderErrors, LinesAfterAnIncludeAreCountedOn) {
     const int line = shaders_.append("blades/cull.comp", "\n\nint wrong() { return 1.5; }\n");
-    expect_contains(error_of([] { gl::Program("cull", {"blades/cull.comp"}); }), "blades/cull.comp:" + std::to_string(line + 2));
+    expect_contains(error_of([] { gl::Program("cull", {"blades/cull.comp"}); }),
+                    "blades/cull.comp:" + std::to_string(line + 2));
 }
 
 TEST_F(ShaderErrors, NameTheLineOfAMissingInclude) {
-    shaders_.write("render/tone_map.frag", "// one\n#include \"shared/tone.h\"\n  #  include \"lib/none.glsl\"\nvoid main() {}\n");
+    shaders_.write(
+        "render/tone_map.frag",
+        "// one\n#include \"shared/tone.h\"\n  #  include \"lib/none.glsl\"\nvoid main() {}\n");
     const std::string error = error_of([] { tone_map(); });
     expect_contains(error, "render/tone_map.frag:3");
     expect_contains(error, "none.glsl");
 }
 
 TEST_F(ShaderErrors, MissingFileAndUnknownStage) {
-    expect_contains(error_of([] { gl::Program("none", {"render/none.comp"}); }), "render/none.comp");
+    expect_contains(error_of([] { gl::Program("none", {"render/none.comp"}); }),
+                    "render/none.comp");
     shaders_.write("render/odd.txt", "void main() {}\n");
     expect_contains(error_of([] { gl::Program("odd", {"render/odd.txt"}); }), "render/odd.txt");
 }
 
 TEST_F(ShaderErrors, LinkFailuresNameTheProgramsFirstStage) {
-    shaders_.write("render/tone_map.frag", "in vec4 never_written;\nlayout(location = 0) out vec4 c;\nvoid main() { c = never_written; }\n");
+    shaders_.write("render/tone_map.frag", "in vec4 never_written;\nlayout(location = 0) out vec4 "
+                                           "c;\nvoid main() { c = never_written; }\n");
     expect_contains(error_of([] { tone_map(); }), "render/screen.vert");
 }
 
 TEST_F(ShaderErrors, IncludesInCyclesEnd) {
     shaders_.write("lib/one.glsl", "#include \"lib/two.glsl\"\n");
     shaders_.write("lib/two.glsl", "#include \"lib/one.glsl\"\nfloat two() { return 2.0; }\n");
-    shaders_.write("cycle.comp", "#include \"lib/one.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { two(); }\n");
+    shaders_.write(
+        "cycle.comp",
+        "#include \"lib/one.glsl\"\nlayout(local_size_x = 1) in;\nvoid main() { two(); }\n");
     EXPECT_EQ(error_of([] { gl::Program("cycle", {"cycle.comp"}); }), "no error");
 }
 

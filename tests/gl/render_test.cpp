@@ -54,7 +54,8 @@ TEST_F(Render, AovsHoldEveryTierAndAreFinite) {
     FrameSettings settings = small_frame();
     settings.aov = true;
     renderer.draw(view_from(renderer, {20, 1.5, 30}, -12), settings);
-    const scene::Image image = renderer.read_aovs({"color", "depth", "tier", "coverage", "tangent", "normal", "rank"});
+    const scene::Image image =
+        renderer.read_aovs({"color", "depth", "tier", "coverage", "tangent", "normal", "rank"});
     ASSERT_EQ(image.channels.size(), 14u);
     std::map<int, int> tiers;
     for (std::size_t i = 0; i < image.texels.size(); i += image.channels.size()) {
@@ -89,7 +90,8 @@ TEST_F(Render, TwiceTheSameFrameIsTheSamePicture) {
     renderer.draw(view, small_frame());
     const auto first = renderer.read_picture();
     const auto colour = renderer.read_aovs({"color", "depth"});
-    renderer.draw(view_from(renderer, {400, 60, -300}, -40), small_frame()); // somewhere else in between
+    renderer.draw(view_from(renderer, {400, 60, -300}, -40),
+                  small_frame()); // somewhere else in between
     EXPECT_NE(renderer.read_picture().rgb, first.rgb);
     renderer.draw(view, small_frame());
     EXPECT_EQ(renderer.read_picture().rgb, first.rgb);
@@ -103,7 +105,8 @@ TEST_F(Render, TwiceTheSameFrameIsTheSamePicture) {
     EXPECT_EQ(other.read_picture().rgb, first.rgb) << "AOVs change no colour";
 }
 
-/// Place of a pixel's first sample, in pixels from its bottom left corner: the one whose depth the AOVs hold.
+/// Place of a pixel's first sample, in pixels from its bottom left corner: the one whose depth the
+/// AOVs hold.
 glm::vec2 first_sample(int samples) {
     const gl::Texture texture(GL_RGBA16F, {4, 4, 0, 1, samples});
     const gl::Framebuffer framebuffer({&texture}, nullptr);
@@ -123,12 +126,17 @@ TEST_F(Render, DepthOfFlatGroundIsTheClosedForm) {
     const double pitch = -35, eye = 1.8;
     renderer.draw(view_from(renderer, {20, eye, 30}, pitch), settings);
     const auto depth = renderer.read_aovs({"depth"});
-    const double radians = pitch * 3.14159265358979 / 180, focal = 0.5 * settings.height / std::tan(0.5 * 60 * 3.14159265358979 / 180);
+    const double radians = pitch * 3.14159265358979 / 180,
+                 focal = 0.5 * settings.height / std::tan(0.5 * 60 * 3.14159265358979 / 180);
     for (int y = 0; y < settings.height; ++y) {
-        const double up = (0.5 * settings.height - y - 1 + first) / focal; // of the ray, for one metre ahead
+        const double up =
+            (0.5 * settings.height - y - 1 + first) / focal; // of the ray, for one metre ahead
         const double falls = -(std::sin(radians) + up * std::cos(radians));
         for (const int x : {0, 80, 159}) {
-            EXPECT_NEAR(depth.texels[static_cast<std::size_t>(y * settings.width + x)] / (eye / falls), 1, 2e-3) << y;
+            EXPECT_NEAR(depth.texels[static_cast<std::size_t>(y * settings.width + x)] /
+                            (eye / falls),
+                        1, 2e-3)
+                << y;
         }
     }
 }
@@ -145,8 +153,9 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"clipmap", "block samples", "terrain", "cull blades", "draw blades", "shells", "slices", "sky",
-                                               "resolve", "tone map"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"clipmap", "block samples", "terrain", "cull blades",
+                                               "draw blades", "shells", "slices", "sky", "resolve",
+                                               "tone map"}));
     EXPECT_GT(stats.blades_drawn, 100u);
     EXPECT_LT(stats.blades_drawn, stats.blades_considered);
     EXPECT_GT(stats.shell_fragments, 100u);
@@ -189,8 +198,8 @@ TEST_F(Render, LeavesNothingBehind) {
     const auto live_objects = [] {
         int live = 0;
         for (GLuint name = 1; name < 2000; ++name) {
-            live += glIsTexture(name) + glIsBuffer(name) + glIsProgram(name) + glIsShader(name) + glIsVertexArray(name) + glIsFramebuffer(name) +
-                    glIsQuery(name);
+            live += glIsTexture(name) + glIsBuffer(name) + glIsProgram(name) + glIsShader(name) +
+                    glIsVertexArray(name) + glIsFramebuffer(name) + glIsQuery(name);
         }
         return live;
     };
@@ -208,7 +217,7 @@ TEST_F(Render, LeavesNothingBehind) {
     }
     EXPECT_EQ(gl::gpu_bytes(), bytes);
     EXPECT_EQ(objects[2], objects[1]); // every round would add its own
-    EXPECT_LT(live_objects(), 12);     // drivers hold on to a program or two that were drawn with last
+    EXPECT_LT(live_objects(), 12); // drivers hold on to a program or two that were drawn with last
 }
 
 TEST_F(Render, ResizeStormLeavesNoError) {
@@ -224,7 +233,8 @@ TEST_F(Render, ResizeStormLeavesNoError) {
         settings.aov = round % 4 == 1;
         renderer.draw(view, settings);
         const auto picture = renderer.read_picture();
-        EXPECT_EQ(picture.rgb.size(), static_cast<std::size_t>(settings.width * settings.height * 3));
+        EXPECT_EQ(picture.rgb.size(),
+                  static_cast<std::size_t>(settings.width * settings.height * 3));
         EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR)) << round;
         if (round == 0) {
             at_start = renderer.stats().gpu_bytes;
@@ -239,7 +249,8 @@ TEST_F(Render, ResizeStormLeavesNoError) {
 TEST_F(Render, OverTheLimitIsRefusedAndTheRendererLivesOn) {
     Renderer renderer(small_world());
     const auto view = view_from(renderer, {20, 1.5, 30}, -12);
-    for (const auto& [width, height, samples] : {std::tuple{0, 90, 4}, {160, 1 << 20, 4}, {160, 90, 0}, {160, 90, 4096}}) {
+    for (const auto& [width, height, samples] :
+         {std::tuple{0, 90, 4}, {160, 1 << 20, 4}, {160, 90, 0}, {160, 90, 4096}}) {
         FrameSettings settings = small_frame();
         settings.width = width;
         settings.height = height;
@@ -287,7 +298,9 @@ TEST_F(Render, PresentCopiesThePicture) {
     for (int y = 0; y < 90; ++y) {
         for (int x = 0; x < 160; ++x) {
             const float red = texels[static_cast<std::size_t>(((y + 5) * 200 + x + 30) * 4)];
-            ASSERT_NEAR(255 * red, picture.rgb[static_cast<std::size_t>(((89 - y) * 160 + x) * 3)], 0.01) << x << " " << y;
+            ASSERT_NEAR(255 * red, picture.rgb[static_cast<std::size_t>(((89 - y) * 160 + x) * 3)],
+                        0.01)
+                << x << " " << y;
         }
     }
 }
@@ -298,12 +311,15 @@ TEST_F(Render, FarAppearanceIsUsableAllOverTheHemisphere) {
     const wind::Wind wind(SmallWorld::breeze(), 0.1);
     std::vector<float> before;
     for (const float height : {-0.1f, 0.05f, 0.6f, 1.0f}) {
-        appearance.update(daylight({std::sqrt(1 - height * height), height, 0}), wind.field({0, 0}, 0));
+        appearance.update(daylight({std::sqrt(1 - height * height), height, 0}),
+                          wind.field({0, 0}, 0));
         appearance.bind();
         GLint id = 0;
         glGetIntegeri_v(GL_TEXTURE_BINDING_2D, TEX_FAR_APPEARANCE, &id);
-        std::vector<float> texels(4 * shells::FarAppearance::kAzimuths * shells::FarAppearance::kElevations);
-        glGetTextureImage(static_cast<GLuint>(id), 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
+        std::vector<float> texels(4 * shells::FarAppearance::kAzimuths *
+                                  shells::FarAppearance::kElevations);
+        glGetTextureImage(static_cast<GLuint>(id), 0, GL_RGBA, GL_FLOAT,
+                          static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
         for (const float texel : texels) {
             ASSERT_TRUE(std::isfinite(texel) && texel >= 0) << "sun at " << height;
         }
@@ -340,7 +356,8 @@ TEST_F(Render, ResolveAndToneMapOfAKnownColour) {
         }
         EXPECT_NEAR(data[i], shared::kNear_m / near, 1e-6);
         for (std::size_t c = 0; c < 3; ++c) {
-            EXPECT_NEAR(shown[i + c], expected[static_cast<int>(c)], 1.6 / 255); // rounding and a step of dither
+            EXPECT_NEAR(shown[i + c], expected[static_cast<int>(c)],
+                        1.6 / 255); // rounding and a step of dither
         }
         EXPECT_EQ(shown[i + 3], 1.0f);
     }

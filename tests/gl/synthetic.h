@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small worlds made in the test: terrain flat or hilly, a grass set of some hundred blades with images of noise.
+// Small worlds made in the test: terrain flat or hilly, a grass set of some hundred blades with
+// images of noise.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,17 @@
 namespace sward::tests {
 
 inline shared::GrassAppearance grass_look() {
-    return {{0.05f, 0.09f, 0.02f, 0.07f}, {0.08f, 0.15f, 0.03f, 0.45f}, {0.21f, 0.17f, 0.08f, 0.45f}, {1.0f, 1.0f, 0.06f, 18.0f}};
+    return {{0.05f, 0.09f, 0.02f, 0.07f},
+            {0.08f, 0.15f, 0.03f, 0.45f},
+            {0.21f, 0.17f, 0.08f, 0.45f},
+            {1.0f, 1.0f, 0.06f, 18.0f}};
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
-    return {glm::vec4(to_sun, 0.55f), {3.6f, 3.4f, 3.0f, 2.2e-5f}, {0.22f, 0.42f, 0.85f, 1.1f}, {0.82f, 0.96f, 1.12f, 1}};
+    return {glm::vec4(to_sun, 0.55f),
+            {3.6f, 3.4f, 3.0f, 2.2e-5f},
+            {0.22f, 0.42f, 0.85f, 1.1f},
+            {0.82f, 0.96f, 1.12f, 1}};
 }
 
 inline scene::Heightfield flat_field(float metres) {
@@ -31,14 +38,18 @@ inline scene::Heightfield hilly_field() {
     scene::Heightfield field{65, 65, {30, 30}, {}, {}};
     for (int j = 0; j < field.height; ++j) {
         for (int i = 0; i < field.width; ++i) {
-            field.metres.push_back(300 + 30 * std::sin(0.35f * static_cast<float>(i)) * std::cos(0.27f * static_cast<float>(j)) +
+            field.metres.push_back(300 +
+                                   30 * std::sin(0.35f * static_cast<float>(i)) *
+                                       std::cos(0.27f * static_cast<float>(j)) +
                                    10 * std::sin(0.9f * static_cast<float>(i + j)));
         }
     }
     return field;
 }
 
-inline scene::DensityMask even_mask(float density) { return {2, 2, std::vector<float>(4, density)}; }
+inline scene::DensityMask even_mask(float density) {
+    return {2, 2, std::vector<float>(4, density)};
+}
 
 inline float unit_at(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     return static_cast<float>(base::hash_unit(a, b, c));
@@ -52,14 +63,20 @@ inline grass::TextureArray noise_images(int width, int height, int images) {
         auto& bytes = array.mips.emplace_back();
         for (int image = 0; image < images; ++image) {
             for (int t = 0; t < texels; ++t) {
-                const float n = unit_at(static_cast<std::uint64_t>(image / 2), static_cast<std::uint64_t>(t), 1);
+                const float n = unit_at(static_cast<std::uint64_t>(image / 2),
+                                        static_cast<std::uint64_t>(t), 1);
                 const auto byte = [&](std::uint64_t salt) {
-                    return static_cast<std::uint8_t>(255.99f * unit_at(static_cast<std::uint64_t>(image / 2), static_cast<std::uint64_t>(t), salt));
+                    return static_cast<std::uint8_t>(255.99f *
+                                                     unit_at(static_cast<std::uint64_t>(image / 2),
+                                                             static_cast<std::uint64_t>(t), salt));
                 };
                 if (image % 2 == shared::kPlaneId) {
-                    bytes.insert(bytes.end(), {static_cast<std::uint8_t>(n < 0.5f ? 255 : 0), byte(2), byte(3), byte(4)});
+                    bytes.insert(bytes.end(), {static_cast<std::uint8_t>(n < 0.5f ? 255 : 0),
+                                               byte(2), byte(3), byte(4)});
                 } else {
-                    bytes.insert(bytes.end(), {static_cast<std::uint8_t>(108 + byte(5) / 6), static_cast<std::uint8_t>(108 + byte(6) / 6), 128, 128});
+                    bytes.insert(bytes.end(),
+                                 {static_cast<std::uint8_t>(108 + byte(5) / 6),
+                                  static_cast<std::uint8_t>(108 + byte(6) / 6), 128, 128});
                 }
             }
         }
@@ -67,23 +84,32 @@ inline grass::TextureArray noise_images(int width, int height, int images) {
     return array;
 }
 
-/// A blade that leans by up to 20 degrees and bends further; rank by its number, so that a variant is sorted.
+/// A blade that leans by up to 20 degrees and bends further; rank by its number, so that a variant
+/// is sorted.
 inline shared::BladeRecord synthetic_blade(std::uint64_t variant, int n, int count, float side) {
-    const auto random = [&](std::uint64_t salt) { return unit_at(variant * 100000 + static_cast<std::uint64_t>(n), salt, 77); };
-    const float length = 0.15f + 0.12f * random(0), azimuth = 6.2831853f * random(1), lean = 0.35f * random(2), turn = 0.6f * random(3);
+    const auto random = [&](std::uint64_t salt) {
+        return unit_at(variant * 100000 + static_cast<std::uint64_t>(n), salt, 77);
+    };
+    const float length = 0.15f + 0.12f * random(0), azimuth = 6.2831853f * random(1),
+                lean = 0.35f * random(2), turn = 0.6f * random(3);
     const auto toward = [&](float angle) {
-        return glm::vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth));
+        return glm::vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle),
+                         std::sin(angle) * std::sin(azimuth));
     };
     const glm::vec3 v1 = toward(lean) * 0.5f * length;
     const glm::vec3 v2 = v1 + toward(lean + turn) * 0.5f * length;
     float curve = 0;
     for (int i = 0; i < 64; ++i) {
-        curve += glm::distance(shared::blade_curve(v1, v2, static_cast<float>(i) / 64), shared::blade_curve(v1, v2, static_cast<float>(i + 1) / 64));
+        curve += glm::distance(shared::blade_curve(v1, v2, static_cast<float>(i) / 64),
+                               shared::blade_curve(v1, v2, static_cast<float>(i + 1) / 64));
     }
-    const float rank = (std::floor(256.0f * static_cast<float>(n) / static_cast<float>(count)) + 0.5f) / 256;
+    const float rank =
+        (std::floor(256.0f * static_cast<float>(n) / static_cast<float>(count)) + 0.5f) / 256;
     const float seed = (std::floor(256.0f * random(4)) + 0.5f) / 256;
-    return {{side * random(5), side * random(6), rank, seed}, glm::vec4(v1, 0.002f + 0.002f * random(7)),
-            glm::vec4(v2, 0.3f + 0.5f * random(8)), {6.2831853f * random(9), curve, 0, 0}};
+    return {{side * random(5), side * random(6), rank, seed},
+            glm::vec4(v1, 0.002f + 0.002f * random(7)),
+            glm::vec4(v2, 0.3f + 0.5f * random(8)),
+            {6.2831853f * random(9), curve, 0, 0}};
 }
 
 inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
@@ -97,14 +123,16 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     for (int variant = 0; variant < set.variants; ++variant) {
         set.variant_begin.push_back(static_cast<std::uint32_t>(set.blades.size()));
         for (int n = 0; n < blades_a_variant; ++n) {
-            set.blades.push_back(synthetic_blade(static_cast<std::uint64_t>(variant), n, blades_a_variant, set.side_m));
+            set.blades.push_back(synthetic_blade(static_cast<std::uint64_t>(variant), n,
+                                                 blades_a_variant, set.side_m));
         }
     }
     set.variant_begin.push_back(static_cast<std::uint32_t>(set.blades.size()));
     for (int k = 0; k < 3; ++k) {
         const int size = 64 >> k, layers = 4 >> k, slices = 8 >> k;
-        set.levels.push_back({layers, slices, noise_images(size, size, set.variants * layers * shared::kPlanes),
-                              noise_images(size, size / 4, set.variants * 2 * slices * shared::kPlanes)});
+        set.levels.push_back(
+            {layers, slices, noise_images(size, size, set.variants * layers * shared::kPlanes),
+             noise_images(size, size / 4, set.variants * 2 * slices * shared::kPlanes)});
     }
     for (const float elevation : {90.0f, 45.0f, 10.0f}) {
         grass::FarRow row;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground on the GPU held to its CPU twin: clipmap, block samples, wind; and no holes between blocks or levels.
+// The ground on the GPU held to its CPU twin: clipmap, block samples, wind; and no holes between
+// blocks or levels.
 #include <cmath>
 #include <map>
 #include <random>
@@ -28,8 +29,10 @@ protected:
         const double spacing = Clipmap::spacing(level);
         int wrong = 0;
         for (int n = 0; n < kCells * kCells; ++n) {
-            const glm::dvec2 place = glm::dvec2(post_of(clipmap, level, {n % kCells, n / kCells})) * spacing;
-            wrong += !(std::abs(heights[static_cast<std::size_t>(n)] - surface.height(place.x, place.y, spacing)) < 1e-3);
+            const glm::dvec2 place =
+                glm::dvec2(post_of(clipmap, level, {n % kCells, n / kCells})) * spacing;
+            wrong += !(std::abs(heights[static_cast<std::size_t>(n)] -
+                                surface.height(place.x, place.y, spacing)) < 1e-3);
         }
         return wrong;
     }
@@ -64,7 +67,8 @@ TEST_F(Terrain, MovingTheEyeMovesNoPost) {
             const glm::ivec2 offset = post_of(clipmap, level, {n % kCells, n / kCells}) - old;
             if (offset.x >= 0 && offset.y >= 0 && offset.x < kCells && offset.y < kCells) {
                 ++kept;
-                changed += before[static_cast<std::size_t>(level)][static_cast<std::size_t>(n)] != after[static_cast<std::size_t>(n)];
+                changed += before[static_cast<std::size_t>(level)][static_cast<std::size_t>(n)] !=
+                           after[static_cast<std::size_t>(n)];
             }
         }
         EXPECT_GT(kept, kCells * kCells / 8) << level;
@@ -82,11 +86,14 @@ TEST_F(Terrain, WindowsHoldTheEyeAndNestOnBlocks) {
         const glm::dvec2 eye(metres(random), metres(random));
         clipmap.update(eye);
         for (int level = 0; level < clipmap.levels(); ++level) {
-            const glm::dvec2 cells = eye / Clipmap::spacing(level) - glm::dvec2(clipmap.window(level).first);
-            EXPECT_GE(std::min(cells.x, cells.y), 56.0); // ground.glsl leaves a level 54 cells from the eye
+            const glm::dvec2 cells =
+                eye / Clipmap::spacing(level) - glm::dvec2(clipmap.window(level).first);
+            EXPECT_GE(std::min(cells.x, cells.y),
+                      56.0); // ground.glsl leaves a level 54 cells from the eye
             EXPECT_LE(std::max(cells.x, cells.y), kCells - 56.0);
             if (level > 0) {
-                const glm::ivec2 hole = clipmap.window(level - 1).first - 2 * clipmap.window(level).first;
+                const glm::ivec2 hole =
+                    clipmap.window(level - 1).first - 2 * clipmap.window(level).first;
                 EXPECT_EQ(hole.x % (2 * shared::kBlockCells), 0);
                 EXPECT_EQ(hole.y % (2 * shared::kBlockCells), 0);
             }
@@ -102,11 +109,15 @@ TEST_F(Terrain, GroundIsContinuousAcrossLevels) {
     std::vector<glm::vec4> places;
     for (const glm::vec2& way : {glm::vec2(1, 0), glm::normalize(glm::vec2(-1, 0.7f))}) {
         for (int i = 0; i < kSteps; ++i) {
-            const glm::vec2 place = glm::vec2(world.frame.eye.x, world.frame.eye.z) + way * (kStep_m * static_cast<float>(i));
+            const glm::vec2 place = glm::vec2(world.frame.eye.x, world.frame.eye.z) +
+                                    way * (kStep_m * static_cast<float>(i));
             places.emplace_back(place, 0, 0);
         }
     }
-    const auto ground = run_probe(shaders, {"lib/ground.glsl"}, "    ClipPlace place = clip_place(a.xy);\n    b = vec4(ground_at(a.xy), place.level, place.blend, 0.0);", places);
+    const auto ground = run_probe(shaders, {"lib/ground.glsl"},
+                                  "    ClipPlace place = clip_place(a.xy);\n    b = "
+                                  "vec4(ground_at(a.xy), place.level, place.blend, 0.0);",
+                                  places);
     int last_level = 0;
     for (std::size_t i = 1; i < ground.size(); ++i) {
         if (i == kSteps) {
@@ -114,11 +125,13 @@ TEST_F(Terrain, GroundIsContinuousAcrossLevels) {
         }
         // Slopes stay below 1.5; samplers may resolve a cell to 1 / 256 only.
         const double cell = Clipmap::spacing(static_cast<int>(ground[i].y));
-        ASSERT_LT(std::abs(ground[i].x - ground[i - 1].x), 1.5 * (kStep_m + cell / 256) + 1e-3) << "at step " << i << " level " << ground[i].y;
+        ASSERT_LT(std::abs(ground[i].x - ground[i - 1].x), 1.5 * (kStep_m + cell / 256) + 1e-3)
+            << "at step " << i << " level " << ground[i].y;
         last_level = std::max(last_level, static_cast<int>(ground[i].y));
         if (ground[i].y == 0 && ground[i].z == 0) {
             const glm::dvec2 at = world.world(glm::vec2(places[i]));
-            ASSERT_NEAR(ground[i].x + world.anchor.y, world.surface.height(at.x, at.y), 0.1) << i; // between posts half a metre apart
+            ASSERT_NEAR(ground[i].x + world.anchor.y, world.surface.height(at.x, at.y), 0.1)
+                << i; // between posts half a metre apart
         }
     }
     EXPECT_GE(last_level, 3); // borders were crossed
@@ -128,13 +141,15 @@ TEST_F(Terrain, GroundIsContinuousAcrossLevels) {
 TEST_F(Terrain, BlocksCoverTheGroundOnce) {
     SmallWorld world(hilly_field(), 0.8, {}, {123.4, 345, -321.5});
     const terrain::Frustum frustum(world.frame.clip_from_world);
-    const auto blocks = visible_blocks(world.clipmap, world.surface, frustum, world.anchor, glm::vec3(world.frame.eye));
+    const auto blocks = visible_blocks(world.clipmap, world.surface, frustum, world.anchor,
+                                       glm::vec3(world.frame.eye));
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(-1, 1);
     int seen = 0;
     for (int n = 0; n < 4000; ++n) {
         const float reach = std::pow(10.0f, 1.9f + 1.0f * unit(random));
-        const glm::vec2 place = glm::vec2(world.frame.eye.x, world.frame.eye.z) + reach * glm::vec2(unit(random), unit(random));
+        const glm::vec2 place = glm::vec2(world.frame.eye.x, world.frame.eye.z) +
+                                reach * glm::vec2(unit(random), unit(random));
         const glm::dvec2 at = world.world(place);
         const double y = world.surface.height(at.x, at.y) - world.anchor.y;
         const glm::vec4 clip = world.frame.clip_from_world * glm::vec4(place.x, y, place.y, 1);
@@ -165,16 +180,21 @@ std::vector<shared::BlockSample> read_samples(std::size_t blocks) {
     glGetIntegeri_v(GL_SHADER_STORAGE_BUFFER_BINDING, BIND_BLOCK_SAMPLES, &id);
     std::vector<shared::BlockSample> samples(blocks * shared::kBlockPosts);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glGetNamedBufferSubData(static_cast<GLuint>(id), 0, static_cast<GLsizeiptr>(samples.size() * sizeof(samples[0])), samples.data());
+    glGetNamedBufferSubData(static_cast<GLuint>(id), 0,
+                            static_cast<GLsizeiptr>(samples.size() * sizeof(samples[0])),
+                            samples.data());
     return samples;
 }
 
 std::vector<terrain::VisibleBlock> all_blocks(const SmallWorld& world) {
-    const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
-    return visible_blocks(world.clipmap, world.surface, everything, world.anchor, glm::vec3(world.frame.eye));
+    const terrain::Frustum everything(
+        glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
+    return visible_blocks(world.clipmap, world.surface, everything, world.anchor,
+                          glm::vec3(world.frame.eye));
 }
 
-/// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there must be no crack.
+/// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there
+/// must be no crack.
 TEST_F(Terrain, LevelsMeetWithoutCracks) {
     SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
     const auto blocks = all_blocks(world);
@@ -182,14 +202,17 @@ TEST_F(Terrain, LevelsMeetWithoutCracks) {
     pass.execute(blocks);
     const auto samples = read_samples(blocks.size());
     std::map<std::tuple<int, long, long>, float> heights; // level, place in centimetres
-    const auto key = [](int level, glm::vec2 place) { return std::tuple(level, std::lround(100.0 * place.x), std::lround(100.0 * place.y)); };
+    const auto key = [](int level, glm::vec2 place) {
+        return std::tuple(level, std::lround(100.0 * place.x), std::lround(100.0 * place.y));
+    };
     const auto place_of = [&](std::size_t n) {
         const terrain::VisibleBlock& block = blocks[n / shared::kBlockPosts];
         const int post = static_cast<int>(n % shared::kBlockPosts);
         return block.corner + block.cell * glm::vec2(post % 9, post / 9);
     };
     for (std::size_t n = 0; n < samples.size(); ++n) {
-        const auto [it, fresh] = heights.emplace(key(blocks[n / shared::kBlockPosts].level, place_of(n)), samples[n].ground.x);
+        const auto [it, fresh] = heights.emplace(
+            key(blocks[n / shared::kBlockPosts].level, place_of(n)), samples[n].ground.x);
         ASSERT_TRUE(fresh || it->second == samples[n].ground.x) << "blocks of one level disagree";
     }
     int corners = 0, middles = 0;
@@ -204,7 +227,8 @@ TEST_F(Terrain, LevelsMeetWithoutCracks) {
             const auto fine = heights.find(key(block.level - 1, place + 0.5f * step));
             const auto next = heights.find(key(block.level, place + step));
             if (fine != heights.end() && next != heights.end()) {
-                ASSERT_NEAR(fine->second, 0.5 * (samples[n].ground.x + next->second), 2e-3) << "level " << block.level;
+                ASSERT_NEAR(fine->second, 0.5 * (samples[n].ground.x + next->second), 2e-3)
+                    << "level " << block.level;
                 ++middles;
             }
         }
@@ -218,7 +242,9 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
     world.frame.grass.y = 0.8f; // the scene's density
     world.upload();
     const auto blocks = all_blocks(world);
-    EXPECT_EQ(blocks.size(), 256u + 192u * static_cast<std::size_t>(world.clipmap.levels() - 1)); // a quarter is the finer level's
+    EXPECT_EQ(blocks.size(),
+              256u + 192u * static_cast<std::size_t>(world.clipmap.levels() -
+                                                     1)); // a quarter is the finer level's
     terrain::BlockSamples pass;
     pass.execute(blocks);
     const auto samples = read_samples(blocks.size());
@@ -230,18 +256,23 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
         const glm::dvec2 at = world.world(place);
         const glm::dvec2 wind = world.wind.at(at.x, at.y, SmallWorld::kTime_s);
         const shared::BlockSample& sample = samples[n];
-        ASSERT_LT(glm::length(glm::dvec2(sample.motion.z, sample.motion.w) - wind), 5e-3) << place.x << " " << place.y;
+        ASSERT_LT(glm::length(glm::dvec2(sample.motion.z, sample.motion.w) - wind), 5e-3)
+            << place.x << " " << place.y;
         ASSERT_NEAR(sample.ground.y, 0.8f * 64 / 255, 2e-3);
-        const glm::vec2 from_eye = glm::abs(place - glm::vec2(world.frame.eye.x, world.frame.eye.z)) / block.cell;
+        const glm::vec2 from_eye =
+            glm::abs(place - glm::vec2(world.frame.eye.x, world.frame.eye.z)) / block.cell;
         const float cells = std::max(from_eye.x, from_eye.y);
         if (cells > 39 || (block.level > 0 && cells < 28)) {
             continue; // a blend of two levels, or another level's ground
         }
-        ASSERT_NEAR(sample.ground.x + world.anchor.y, world.surface.height(at.x, at.y, block.cell), 2e-3) << "level " << block.level;
+        ASSERT_NEAR(sample.ground.x + world.anchor.y, world.surface.height(at.x, at.y, block.cell),
+                    2e-3)
+            << "level " << block.level;
         ++checked[static_cast<std::size_t>(block.level)];
         if (block.level == 0) {
             const glm::vec3 normal = world.surface.normal(at.x, at.y);
-            ASSERT_NEAR(sample.ground.z, glm::dot(normal, glm::vec3(world.frame.light.to_sun)), 0.02);
+            ASSERT_NEAR(sample.ground.z, glm::dot(normal, glm::vec3(world.frame.light.to_sun)),
+                        0.02);
             ASSERT_NEAR(sample.motion.x, -normal.x / normal.y, 0.03);
             ASSERT_NEAR(sample.motion.y, -normal.z / normal.y, 0.03);
         }
@@ -256,7 +287,8 @@ TEST_F(Terrain, WindAtEqualsTheTwin) {
     const ShaderCopy shaders;
     std::vector<glm::vec4> places;
     for (int i = 0; i < 512; ++i) {
-        places.emplace_back(-150 + 300 * unit_at(1, static_cast<std::uint64_t>(i), 2), -150 + 300 * unit_at(1, static_cast<std::uint64_t>(i), 3), 0, 0);
+        places.emplace_back(-150 + 300 * unit_at(1, static_cast<std::uint64_t>(i), 2),
+                            -150 + 300 * unit_at(1, static_cast<std::uint64_t>(i), 3), 0, 0);
     }
     const auto found = run_probe(shaders, {"lib/wind.glsl"}, "    b.xy = wind_at(a.xy);", places);
     for (std::size_t i = 0; i < places.size(); ++i) {

@@ -48,14 +48,16 @@ RestBlade random_blade(std::mt19937& random) {
     const float lean = 0.45f * unit(random);
     const float turn = 0.9f * unit(random);
     const auto toward = [&](float angle) {
-        return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth));
+        return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle),
+                    std::sin(angle) * std::sin(azimuth));
     };
     const vec3 v1 = toward(lean) * (0.5f * stem);
     const vec3 v2 = v1 + toward(lean + turn) * (0.5f * stem);
     return {v1, v2, static_cast<float>(measured_length(v1, v2))};
 }
 
-constexpr float kIntensities[] = {-1.0f, -0.6f, -0.02f, -1e-3f, -1e-6f, 0.0f, 1e-6f, 1e-3f, 0.005f, 0.02f, 0.3f, 0.72f, 1.0f};
+constexpr float kIntensities[] = {-1.0f, -0.6f,  -0.02f, -1e-3f, -1e-6f, 0.0f, 1e-6f,
+                                  1e-3f, 0.005f, 0.02f,  0.3f,   0.72f,  1.0f};
 
 TEST(Bend, ArcEqualsIntegration) {
     for (const float stem : {0.03f, 0.3f, 2.0f}) {
@@ -63,8 +65,10 @@ TEST(Bend, ArcEqualsIntegration) {
             for (const float share : {0.0f, 0.1f, 0.5f, 1.0f}) {
                 const vec2 arc = bend_arc(share * stem, stem, intensity);
                 const glm::dvec2 truth = integrated_arc(share * stem, stem, intensity);
-                EXPECT_NEAR(arc.x, truth.x, 1e-5 * stem) << stem << " " << intensity << " " << share;
-                EXPECT_NEAR(arc.y, truth.y, 1e-5 * stem) << stem << " " << intensity << " " << share;
+                EXPECT_NEAR(arc.x, truth.x, 1e-5 * stem)
+                    << stem << " " << intensity << " " << share;
+                EXPECT_NEAR(arc.y, truth.y, 1e-5 * stem)
+                    << stem << " " << intensity << " " << share;
             }
         }
     }
@@ -131,8 +135,10 @@ TEST(Bend, OffsetFollowsTheWindAndKeepsDistanceToTheRoot) {
         EXPECT_LT(offset.y, 0.0f);
         EXPECT_LE(glm::length(vec3(offset.x, y + offset.y, offset.z)), y * (1 + 1e-5f));
     }
-    for (const vec3& none : {bend_offset(0.0f, 0.3f, wind, 0.1f), bend_offset(-0.1f, 0.3f, wind, 0.1f),
-                             bend_offset(0.2f, 0.3f, vec2(0.0f), 0.1f), grouped_offset(0.2f, 0.3f, vec2(0.0f), 0.1f)}) {
+    for (const vec3& none :
+         {bend_offset(0.0f, 0.3f, wind, 0.1f), bend_offset(-0.1f, 0.3f, wind, 0.1f),
+          bend_offset(0.2f, 0.3f, vec2(0.0f), 0.1f),
+          grouped_offset(0.2f, 0.3f, vec2(0.0f), 0.1f)}) {
         EXPECT_EQ(none, vec3(0.0f));
     }
 }
@@ -141,7 +147,9 @@ TEST(Bend, TurnIsTheOffsetsDerivative) {
     const vec2 wind(3.0f, -4.0f);
     for (const float y : {0.02f, 0.1f, 0.29f}) {
         const float step = 2e-3f;
-        const vec3 along = vec3(0.0f, 1.0f, 0.0f) + (bend_offset(y + step, 0.3f, wind, 0.1f) - bend_offset(y - step, 0.3f, wind, 0.1f)) / (2 * step);
+        const vec3 along = vec3(0.0f, 1.0f, 0.0f) + (bend_offset(y + step, 0.3f, wind, 0.1f) -
+                                                     bend_offset(y - step, 0.3f, wind, 0.1f)) /
+                                                        (2 * step);
         EXPECT_LT(glm::length(bend_turn(y, 0.3f, wind, 0.1f) - along), 1e-3f) << y;
         EXPECT_NEAR(glm::length(bend_turn(y, 0.3f, wind, 0.1f)), 1.0f, 1e-6f);
     }
@@ -182,7 +190,8 @@ TEST(Pose, NearPoseKeepsArcLength) {
         const RestBlade blade = random_blade(random);
         for (const float speed : {0.0f, 2.0f, 8.0f, 30.0f}) {
             vec3 v1 = blade.v1, v2 = blade.v2;
-            pose_blade(v1, v2, vec4(blade.stem, blade.stem, 0.08f, 0.0f), vec2(speed, 0.4f * speed));
+            pose_blade(v1, v2, vec4(blade.stem, blade.stem, 0.08f, 0.0f),
+                       vec2(speed, 0.4f * speed));
             EXPECT_NEAR(measured_length(v1, v2) / blade.stem, 1.0, 0.01) << speed;
             EXPECT_GT(v2.y, 0.0f);
         }
@@ -201,7 +210,8 @@ TEST(Pose, ShellPoseIsTheShellsWarp) {
         for (const float v : {0.0f, 0.5f, 1.0f}) {
             const vec3 rest = blade_curve(blade.v1, blade.v2, v);
             const vec3 warped = rest + bend_offset(rest.y, canopy, wind, 0.1f);
-            EXPECT_LT(glm::length(blade_curve(v1, v2, v) - warped), 1e-6f * (1 + 10 * blade.stem)) << v;
+            EXPECT_LT(glm::length(blade_curve(v1, v2, v) - warped), 1e-6f * (1 + 10 * blade.stem))
+                << v;
         }
         // Between these places a quadratic stays near the warped curve.
         for (const float v : {0.25f, 0.75f}) {
@@ -240,11 +250,14 @@ TEST(Blade, TangentIsTheCurvesDerivative) {
     for (int n = 0; n < 50; ++n) {
         const RestBlade blade = random_blade(random);
         for (const float v : {0.05f, 0.5f, 0.95f}) {
-            const vec3 ahead = blade_curve(blade.v1, blade.v2, v + 0.01f) - blade_curve(blade.v1, blade.v2, v - 0.01f);
-            EXPECT_GT(glm::dot(blade_tangent(blade.v1, blade.v2, v), glm::normalize(ahead)), 0.9999f);
+            const vec3 ahead = blade_curve(blade.v1, blade.v2, v + 0.01f) -
+                               blade_curve(blade.v1, blade.v2, v - 0.01f);
+            EXPECT_GT(glm::dot(blade_tangent(blade.v1, blade.v2, v), glm::normalize(ahead)),
+                      0.9999f);
         }
     }
-    EXPECT_EQ(blade_tangent(vec3(0.0f), vec3(0.0f), 0.5f), vec3(0.0f, 1.0f, 0.0f)); // no NaN for a blade of no length
+    EXPECT_EQ(blade_tangent(vec3(0.0f), vec3(0.0f), 0.5f),
+              vec3(0.0f, 1.0f, 0.0f)); // no NaN for a blade of no length
 }
 
 } // namespace

@@ -32,8 +32,10 @@ TEST(CatmullRom, PassesThroughPostsAndReproducesLines) {
 TEST(CatmullRom, SlopeIsContinuousAtPosts) {
     const float posts[] = {2, 5, -1, 4, 4};
     const float e = 1e-3f;
-    const vec4 left(posts[0], posts[1], posts[2], posts[3]), right(posts[1], posts[2], posts[3], posts[4]);
-    const float before = (shared::catmull_rom(left, 1.0f) - shared::catmull_rom(left, 1.0f - e)) / e;
+    const vec4 left(posts[0], posts[1], posts[2], posts[3]),
+        right(posts[1], posts[2], posts[3], posts[4]);
+    const float before =
+        (shared::catmull_rom(left, 1.0f) - shared::catmull_rom(left, 1.0f - e)) / e;
     const float after = (shared::catmull_rom(right, e) - shared::catmull_rom(right, 0.0f)) / e;
     EXPECT_NEAR(before, after, 0.05f);
 }
@@ -57,7 +59,8 @@ TEST(Relief, IsContinuousAndBounded) {
 
 TEST(Relief, LeavesOutWhatAGridCannotHold) {
     const vec2 place(123.4f, -56.7f);
-    EXPECT_EQ(shared::relief_at(place, 1.0f, 0.5f), shared::relief_at(place, 1.0f, 1.0f)); // 4 m is four posts of 1 m
+    EXPECT_EQ(shared::relief_at(place, 1.0f, 0.5f),
+              shared::relief_at(place, 1.0f, 1.0f)); // 4 m is four posts of 1 m
     EXPECT_NE(shared::relief_at(place, 1.0f, 1.0f), shared::relief_at(place, 1.0f, 2.0f));
     EXPECT_NE(shared::relief_at(place, 1.0f, 16.0f), 0.0f);
     EXPECT_EQ(shared::relief_at(place, 1.0f, 16.1f), 0.0f);
@@ -74,7 +77,9 @@ TEST(GradientNoise, VanishesOnTheLatticeAndStaysWithinBounds) {
 
 TEST(SlopeDensity, ThinsOutWithSlope) {
     const vec2 place(10.0f, 20.0f);
-    const auto at = [&](float slope) { return shared::slope_density(glm::normalize(vec3(slope, 1, 0)), place); };
+    const auto at = [&](float slope) {
+        return shared::slope_density(glm::normalize(vec3(slope, 1, 0)), place);
+    };
     EXPECT_EQ(at(0.0f), 1.0f);
     EXPECT_EQ(at(3.0f), 0.0f);
     EXPECT_EQ(shared::slope_density(vec3(1, 0, 0), place), 0.0f); // a wall: no division by zero
@@ -113,10 +118,13 @@ TEST(WindField, SameAnswerFromEveryAnchor) {
     for (const double time : {0.0, 17.3, 3600.0}) {
         for (const glm::dvec2& place : {glm::dvec2(3, -8), glm::dvec2(-15000.25, 9876.5)}) {
             const glm::dvec2 truth = wind.at(place.x, place.y, time);
-            for (const glm::dvec2& anchor : {glm::dvec2(0), glm::dvec2(64, -128), glm::dvec2(-500, 700)}) {
+            for (const glm::dvec2& anchor :
+                 {glm::dvec2(0), glm::dvec2(64, -128), glm::dvec2(-500, 700)}) {
                 const glm::dvec2 base = glm::floor(place / 64.0) * 64.0 + anchor;
-                const glm::dvec2 here(shared::wind_field_at(wind.field(base, time), vec2(place - base)));
-                EXPECT_LT(glm::length(here - truth), 1e-4 * glm::length(truth)) << time << " " << anchor.x;
+                const glm::dvec2 here(
+                    shared::wind_field_at(wind.field(base, time), vec2(place - base)));
+                EXPECT_LT(glm::length(here - truth), 1e-4 * glm::length(truth))
+                    << time << " " << anchor.x;
             }
         }
     }
@@ -152,7 +160,8 @@ TEST(Surface, PassesThroughPostsAndHoldsItsRim) {
     const terrain::Surface surface(field, 0);
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 5; ++i) {
-            EXPECT_NEAR(surface.height((i - 2) * 10, (j - 1.5) * 20), field.metres[static_cast<std::size_t>(j * 5 + i)], 1e-4);
+            EXPECT_NEAR(surface.height((i - 2) * 10, (j - 1.5) * 20),
+                        field.metres[static_cast<std::size_t>(j * 5 + i)], 1e-4);
         }
     }
     EXPECT_EQ(surface.height(-1e6, -1e6), field.metres[0]);

@@ -62,9 +62,10 @@ TEST(Handover, DistanceInvertsShare) {
     EXPECT_NEAR(handover_distance(-1.0f, band), band.y, 1e-3f);
 }
 
-/// Tiers that draw a pixel of a blade: the near one as cull.comp and blade.frag decide, the far ones as far.frag does, and
-/// the ground by the last level's outgoing band.
-int tiers_that_draw(const lod::Bands& bands, int levels, float rank, float distance, float dither, int mode) {
+/// Tiers that draw a pixel of a blade: the near one as cull.comp and blade.frag decide, the far
+/// ones as far.frag does, and the ground by the last level's outgoing band.
+int tiers_that_draw(const lod::Bands& bands, int levels, float rank, float distance, float dither,
+                    int mode) {
     const vec2 handover(bands.handover);
     int count = handover_may_be_near(rank, distance, handover, mode) &&
                 (mode == kHandoverOff || handover_near(rank, distance, handover, dither, mode));
@@ -72,8 +73,9 @@ int tiers_that_draw(const lod::Bands& bands, int levels, float rank, float dista
         const vec4 band = bands.far[static_cast<std::size_t>(k)];
         const vec2 incoming(band.x, band.y), outgoing(band.z, band.w);
         const bool near = k > 0 ? handover_near(rank, distance, incoming, dither, kHandoverRank)
-                          : mode == kHandoverOff ? distance < band.x
-                                                 : handover_near(rank, distance, incoming, dither, mode);
+                          : mode == kHandoverOff
+                              ? distance < band.x
+                              : handover_near(rank, distance, incoming, dither, mode);
         count += !near && handover_near(rank, distance, outgoing, dither, kHandoverRank);
     }
     const vec4 last = bands.far[static_cast<std::size_t>(levels - 1)];
@@ -88,7 +90,8 @@ TEST(Handover, ExactlyOneTierDrawsABlade) {
             for (const float rank : ranks()) {
                 for (const float dither : dithers()) {
                     ASSERT_EQ(tiers_that_draw(bands, kLevels, rank, d, dither, mode), 1)
-                        << "mode " << mode << " distance " << d << " rank " << rank << " dither " << dither;
+                        << "mode " << mode << " distance " << d << " rank " << rank << " dither "
+                        << dither;
                 }
             }
         }
@@ -116,7 +119,8 @@ TEST(Handover, CullingNeverDropsANearPixel) {
                 before = may;
                 for (const float dither : dithers()) {
                     if (mode != kHandoverOff && handover_near(rank, d, band, dither, mode)) {
-                        EXPECT_TRUE(may) << "mode " << mode << " rank " << rank << " distance " << d;
+                        EXPECT_TRUE(may)
+                            << "mode " << mode << " rank " << rank << " distance " << d;
                     }
                 }
             }
@@ -143,11 +147,13 @@ TEST(Handover, ShareOfNearPixelsIsTheShare) {
             double near = 0, all = 0;
             for (int n = 0; n < 256; ++n) {
                 for (const float dither : dithers()) {
-                    near += handover_near((static_cast<float>(n) + 0.5f) / 256, d, band, dither, mode);
+                    near +=
+                        handover_near((static_cast<float>(n) + 0.5f) / 256, d, band, dither, mode);
                     all += 1;
                 }
             }
-            EXPECT_NEAR(near / all, handover_share(d, band), 0.04) << "mode " << mode << " at " << d;
+            EXPECT_NEAR(near / all, handover_share(d, band), 0.04)
+                << "mode " << mode << " at " << d;
         }
     }
 }
@@ -160,11 +166,13 @@ TEST(Handover, ModesIgnoreWhatTheirNamesSay) {
         for (const float rank : ranks()) {
             for (const float dither : dithers()) {
                 EXPECT_EQ(handover_near(rank, d, band, dither, kHandoverHard), hard);
-                EXPECT_EQ(handover_near(rank, d, band, dither, kHandoverFade), dither < handover_share(d, band));
+                EXPECT_EQ(handover_near(rank, d, band, dither, kHandoverFade),
+                          dither < handover_share(d, band));
             }
         }
     }
-    // By rank: at mid band low ranks are geometry, high ones shells, and the dither decides between only.
+    // By rank: at mid band low ranks are geometry, high ones shells, and the dither decides between
+    // only.
     EXPECT_TRUE(handover_near(0.4f, 7.0f, band, 0.97f, kHandoverRank));
     EXPECT_FALSE(handover_near(0.6f, 7.0f, band, 0.03f, kHandoverRank));
     EXPECT_TRUE(handover_near(0.5f, 7.0f, band, 0.03f, kHandoverRank));
@@ -172,7 +180,8 @@ TEST(Handover, ModesIgnoreWhatTheirNamesSay) {
 }
 
 TEST(Handover, PoseIsTheShellsBeforeAnyPixelIsFar) {
-    for (const vec2& band : {vec2(4.0f, 10.0f), vec2(2.0f, 2.2f), vec2(0.5f, 60.0f), vec2(0.0f, 10.0f)}) {
+    for (const vec2& band :
+         {vec2(4.0f, 10.0f), vec2(2.0f, 2.2f), vec2(0.5f, 60.0f), vec2(0.0f, 10.0f)}) {
         for (const float rank : ranks()) {
             float before = 0.0f;
             for (float d = 0.02f; d < 1.1f * band.y; d *= 1.01f) {
@@ -183,7 +192,8 @@ TEST(Handover, PoseIsTheShellsBeforeAnyPixelIsFar) {
                     EXPECT_EQ(pose, 1.0f) << "rank " << rank << " at " << d;
                 }
             }
-            EXPECT_EQ(pose_share(rank, 0.0f, band), 0.0f); // a scene may start the band at 0: no NaN there
+            EXPECT_EQ(pose_share(rank, 0.0f, band),
+                      0.0f); // a scene may start the band at 0: no NaN there
         }
     }
 }
@@ -231,7 +241,8 @@ TEST(Slices, BothFamiliesTogetherShowWhatABladeHas) {
                     }
                 }
             }
-            EXPECT_NEAR(seen / standing, 1.0, 0.01) << "azimuth " << azimuth << " density " << density;
+            EXPECT_NEAR(seen / standing, 1.0, 0.01)
+                << "azimuth " << azimuth << " density " << density;
         }
     }
     EXPECT_FALSE(slice_shows(0.5f / 256, 0.0f, 1.0f));

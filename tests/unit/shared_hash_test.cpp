@@ -63,7 +63,8 @@ TEST(Hash, VariantsAreEvenAndIndependentOfTheirNeighbours) {
             }
         }
         constexpr double kTiles = kSide * kSide;
-        const double share = 1.0 / variants, error = 5 * std::sqrt(share * (1 - share) / kTiles) + 1e-9;
+        const double share = 1.0 / variants,
+                     error = 5 * std::sqrt(share * (1 - share) / kTiles) + 1e-9;
         for (const int n : count) {
             EXPECT_NEAR(n / kTiles, share, error) << variants << " variants";
         }
@@ -76,7 +77,8 @@ TEST(Codes, RanksAndSeedsSurviveEightBits) {
         const float texel = static_cast<float>(n) / 255.0f; // what a sampler returns
         EXPECT_EQ(unorm8_to_unit(texel), (static_cast<float>(n) + 0.5f) / 256.0f) << n;
         // The driver may divide with an error of a few units in the last place.
-        EXPECT_EQ(unorm8_to_unit(texel * (1 + 3e-7f)), (static_cast<float>(n) + 0.5f) / 256.0f) << n;
+        EXPECT_EQ(unorm8_to_unit(texel * (1 + 3e-7f)), (static_cast<float>(n) + 0.5f) / 256.0f)
+            << n;
     }
 }
 
@@ -107,7 +109,8 @@ TEST(Layout, ImageIndicesAreAllDifferentAndDense) {
     EXPECT_EQ(*layers.rbegin(), kVariants * kCount * kPlanes - 1);
     EXPECT_EQ(slices.size(), std::size_t{2 * kVariants * kCount * kPlanes});
     EXPECT_EQ(*slices.rbegin(), 2 * kVariants * kCount * kPlanes - 1);
-    EXPECT_EQ(layer_index(1, 2, kCount, kPlaneShape), layer_index(1, 2, kCount, kPlaneId) + kPlaneShape);
+    EXPECT_EQ(layer_index(1, 2, kCount, kPlaneShape),
+              layer_index(1, 2, kCount, kPlaneId) + kPlaneShape);
 }
 
 TEST(Layout, AReadableSetFitsTheRenderersLevels) {

@@ -20,7 +20,8 @@ using shared::vec3;
 using shared::vec4;
 
 bool usable(const vec3& radiance) {
-    return std::isfinite(radiance.x) && std::isfinite(radiance.y) && std::isfinite(radiance.z) && radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0;
+    return std::isfinite(radiance.x) && std::isfinite(radiance.y) && std::isfinite(radiance.z) &&
+           radiance.x >= 0 && radiance.y >= 0 && radiance.z >= 0;
 }
 
 TEST(Tone, MapRisesAndStaysWithinZeroAndOne) {
@@ -57,23 +58,32 @@ TEST(Shading, GrassIsFiniteAndNonNegativeForExtremeInputs) {
     const shared::GrassAppearance look = tests::grass_look();
     std::mt19937 random(3);
     std::uniform_real_distribution<float> signed_unit(-1, 1);
-    const auto direction = [&] { return glm::normalize(vec3(signed_unit(random), signed_unit(random), signed_unit(random)) + vec3(1e-4f)); };
+    const auto direction = [&] {
+        return glm::normalize(vec3(signed_unit(random), signed_unit(random), signed_unit(random)) +
+                              vec3(1e-4f));
+    };
     for (int n = 0; n < 20000; ++n) {
         const Light light = tests::daylight(direction());
-        const vec3 tangent = n % 3 == 0 ? vec3(light.to_sun) : direction(); // along the sun: no diffuse, no NaN
+        const vec3 tangent =
+            n % 3 == 0 ? vec3(light.to_sun) : direction(); // along the sun: no diffuse, no NaN
         const vec3 to_eye = n % 5 == 0 ? vec3(light.to_sun) : direction();
-        const GrassPoint point{vec3(n % 7 == 0 ? 0.0f : 1.0f), tangent, 1.5f * signed_unit(random), signed_unit(random)};
+        const GrassPoint point{vec3(n % 7 == 0 ? 0.0f : 1.0f), tangent, 1.5f * signed_unit(random),
+                               signed_unit(random)};
         EXPECT_TRUE(usable(shade_grass(look, light, point, to_eye))) << n;
-        EXPECT_TRUE(usable(shade_soil(light, vec3(0.2f), direction(), 0.5f + 0.5f * signed_unit(random)))) << n;
+        EXPECT_TRUE(
+            usable(shade_soil(light, vec3(0.2f), direction(), 0.5f + 0.5f * signed_unit(random))))
+            << n;
         EXPECT_TRUE(usable(sky_radiance(light, direction()))) << n;
-        EXPECT_TRUE(usable(apply_haze(light, vec3(1.0f), static_cast<float>(n) * 10, direction()))) << n;
+        EXPECT_TRUE(usable(apply_haze(light, vec3(1.0f), static_cast<float>(n) * 10, direction())))
+            << n;
     }
 }
 
 TEST(Shading, LookingStraightAgainstTheSunIsFinite) {
     const Light light = tests::daylight(glm::normalize(vec3(0.3f, 0.6f, 0.2f)));
     const vec3 away = -vec3(light.to_sun); // the half vector vanishes
-    EXPECT_TRUE(usable(shade_grass(tests::grass_look(), light, {vec3(0.1f), vec3(0, 1, 0), 0.5f, 0.6f}, away)));
+    EXPECT_TRUE(usable(
+        shade_grass(tests::grass_look(), light, {vec3(0.1f), vec3(0, 1, 0), 0.5f, 0.6f}, away)));
     EXPECT_TRUE(usable(sky_radiance(light, vec3(0, 1.0000001f, 0)))); // a unit vector, rounded
     EXPECT_TRUE(usable(apply_haze(light, vec3(0.5f), 100, vec3(0, -1, 0))));
 }
@@ -92,13 +102,16 @@ TEST(Shading, SunlightFadesDownTheCanopyAndBehindTheHill) {
 
 TEST(Shading, ABladesColourIsItsOwnAndWithinReason) {
     const shared::GrassAppearance look = tests::grass_look();
-    const auto at = [&](float rank, float seed) { return blade_albedo(look, vec2(rank, seed) / 256.0f, 0.5f, 1); };
+    const auto at = [&](float rank, float seed) {
+        return blade_albedo(look, vec2(rank, seed) / 256.0f, 0.5f, 1);
+    };
     EXPECT_EQ(at(0.5f, 10.5f), at(0.5f, 10.5f));
     EXPECT_NE(at(0.5f, 10.5f), at(1.5f, 10.5f));
     EXPECT_NE(at(0.5f, 10.5f), at(0.5f, 11.5f));
     for (int n = 0; n < 256; ++n) {
         for (const float v : {0.0f, 0.5f, 1.0f}) {
-            const vec3 albedo = blade_albedo(look, vec2(static_cast<float>(n) + 0.5f, 99.5f) / 256.0f, v, 1);
+            const vec3 albedo =
+                blade_albedo(look, vec2(static_cast<float>(n) + 0.5f, 99.5f) / 256.0f, v, 1);
             EXPECT_TRUE(usable(albedo));
             EXPECT_LT(albedo.x + albedo.y + albedo.z, 1.5f);
         }
@@ -115,9 +128,11 @@ TEST(Shading, MeanColourIsTheSameAtEveryDetail) {
                 mean[i] += blade_albedo(look, own, v, 0.5f * static_cast<float>(i)) / 65536.0f;
             }
         }
-        EXPECT_EQ(blade_albedo(look, vec2(0.1f, 0.7f), v, 0), blade_albedo(look, vec2(0.6f, 0.2f), v, 0));
+        EXPECT_EQ(blade_albedo(look, vec2(0.1f, 0.7f), v, 0),
+                  blade_albedo(look, vec2(0.6f, 0.2f), v, 0));
         for (int i = 1; i < 3; ++i) {
-            EXPECT_LT(glm::length(mean[i] - mean[0]), 0.01f * glm::length(mean[0])) << v << " detail " << 0.5f * static_cast<float>(i);
+            EXPECT_LT(glm::length(mean[i] - mean[0]), 0.01f * glm::length(mean[0]))
+                << v << " detail " << 0.5f * static_cast<float>(i);
         }
     }
     EXPECT_EQ(shared::colour_detail(0), 0);
@@ -126,7 +141,8 @@ TEST(Shading, MeanColourIsTheSameAtEveryDetail) {
 
 TEST(FarTable, RowsInterpolateBySineAndHoldAtTheEnds) {
     grass::GrassSet set;
-    for (const auto& [elevation, coverage, height] : {std::tuple{90.0f, 0.2f, 0.6f}, {30.0f, 0.6f, 0.7f}, {0.0f, 1.0f, 0.9f}}) {
+    for (const auto& [elevation, coverage, height] :
+         {std::tuple{90.0f, 0.2f, 0.6f}, {30.0f, 0.6f, 0.7f}, {0.0f, 1.0f, 0.9f}}) {
         grass::FarRow row;
         row.elevation_deg = elevation;
         row.coverage = coverage;

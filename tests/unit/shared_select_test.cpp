@@ -52,8 +52,10 @@ TEST(Bands, ScaleWithFocalLength) {
         EXPECT_NEAR(three.far[k].w, 3 * one.far[k].w, 1e-2f);
     }
     // A blade is blade_start_px wide where the band starts.
-    EXPECT_NEAR(kView.focal_px * kView.blade_width_m / one.handover.x, lod::Settings{}.blade_start_px, 1e-4);
-    EXPECT_NEAR(kView.focal_px * kView.blade_width_m / one.handover.y, lod::Settings{}.blade_gone_px, 1e-4);
+    EXPECT_NEAR(kView.focal_px * kView.blade_width_m / one.handover.x,
+                lod::Settings{}.blade_start_px, 1e-4);
+    EXPECT_NEAR(kView.focal_px * kView.blade_width_m / one.handover.y,
+                lod::Settings{}.blade_gone_px, 1e-4);
 }
 
 TEST(Bands, OverridesHold) {
@@ -68,7 +70,11 @@ TEST(Bands, OverridesHold) {
 }
 
 TEST(Bands, OddOverridesStayOrdered) {
-    for (const auto& [start, end, far] : {std::tuple{500.0, -1.0, -1.0}, {-1.0, 0.5, -1.0}, {-1.0, -1.0, 3.0}, {2.0, 2.0, 2.0}, {0.1, 4000.0, 5000.0}}) {
+    for (const auto& [start, end, far] : {std::tuple{500.0, -1.0, -1.0},
+                                          {-1.0, 0.5, -1.0},
+                                          {-1.0, -1.0, 3.0},
+                                          {2.0, 2.0, 2.0},
+                                          {0.1, 4000.0, 5000.0}}) {
         scene::LodSpec lod;
         const auto given = [](double x) { return x < 0 ? std::nullopt : std::optional(x); };
         lod.handover_start_m = given(start);
@@ -106,7 +112,8 @@ protected:
         Blades out;
         for (const glm::uvec2& item : list.items) {
             const glm::vec4 place = list.tiles[item.x].place;
-            for (std::uint32_t b = item.y; b < std::min(item.y + CULL_GROUP, static_cast<std::uint32_t>(place.z)); ++b) {
+            for (std::uint32_t b = item.y;
+                 b < std::min(item.y + CULL_GROUP, static_cast<std::uint32_t>(place.z)); ++b) {
                 EXPECT_TRUE(out.emplace(place.x, place.y, b).second) << "a blade listed twice";
             }
         }
@@ -114,9 +121,11 @@ protected:
     }
     /// Is the blade's root near, and in view by a metre at least?
     bool wanted(glm::dvec2 world, const shared::BladeRecord& blade, const glm::mat4& clip) const {
-        const glm::vec3 root(glm::dvec3(world.x, surface_.height(world.x, world.y), world.y) - query_.anchor);
+        const glm::vec3 root(glm::dvec3(world.x, surface_.height(world.x, world.y), world.y) -
+                             query_.anchor);
         const glm::vec4 p = clip * glm::vec4(root, 1);
-        return shared::handover_may_be_near(blade.root.z, glm::distance(root, query_.eye), query_.band, query_.mode) &&
+        return shared::handover_may_be_near(blade.root.z, glm::distance(root, query_.eye),
+                                            query_.band, query_.mode) &&
                std::abs(p.x) < p.w && std::abs(p.y) < p.w;
     }
     void expect_complete(const blades::TileList& list, const glm::mat4& clip) const {
@@ -127,13 +136,16 @@ protected:
         std::size_t near = 0;
         for (int n = 0; n < 17 * 17; ++n) {
             const glm::ivec2 tile = middle + glm::ivec2(n % 17, n / 17) - 8;
-            const auto variant = static_cast<std::size_t>(shared::tile_variant(tile, set_.variants));
+            const auto variant =
+                static_cast<std::size_t>(shared::tile_variant(tile, set_.variants));
             const glm::dvec2 corner = glm::dvec2(tile) * static_cast<double>(set_.side_m);
             const glm::vec2 place(corner - glm::dvec2(query_.anchor.x, query_.anchor.z));
-            for (std::uint32_t b = set_.variant_begin[variant]; b < set_.variant_begin[variant + 1]; ++b) {
+            for (std::uint32_t b = set_.variant_begin[variant]; b < set_.variant_begin[variant + 1];
+                 ++b) {
                 if (wanted(corner + glm::dvec2(set_.blades[b].root), set_.blades[b], clip)) {
                     ++near;
-                    EXPECT_TRUE(in_list.count({place.x, place.y, b})) << "tile " << tile.x << "," << tile.y << " blade " << b;
+                    EXPECT_TRUE(in_list.count({place.x, place.y, b}))
+                        << "tile " << tile.x << "," << tile.y << " blade " << b;
                 }
             }
         }
@@ -145,7 +157,8 @@ protected:
 };
 
 TEST_F(BladeTiles, LeaveOutNoBladeThatCouldBeNear) {
-    for (const int mode : {shared::kHandoverRank, shared::kHandoverOff, shared::kHandoverHard, shared::kHandoverFade}) {
+    for (const int mode : {shared::kHandoverRank, shared::kHandoverOff, shared::kHandoverHard,
+                           shared::kHandoverFade}) {
         query_.mode = mode;
         const glm::mat4 clip = wide_view(query_.eye);
         expect_complete(select_tiles(set_, surface_, terrain::Frustum(clip), query_), clip);
@@ -185,20 +198,26 @@ TEST_F(BladeTiles, ComeNearestFirstAndCountWhatTheyHold) {
 
 TEST_F(BladeTiles, FromHighAboveThereAreNone) {
     query_.eye.y += 200;
-    EXPECT_TRUE(select_tiles(set_, surface_, terrain::Frustum(wide_view(query_.eye)), query_).items.empty());
+    EXPECT_TRUE(select_tiles(set_, surface_, terrain::Frustum(wide_view(query_.eye)), query_)
+                    .items.empty());
 }
 
 // ---- far_instances
 
-terrain::VisibleBlock block_at(glm::vec2 corner, float cell) { return {corner, cell, 0, -0.05f, 0.05f, 0}; }
+terrain::VisibleBlock block_at(glm::vec2 corner, float cell) {
+    return {corner, cell, 0, -0.05f, 0.05f, 0};
+}
 
 class FarInstances : public testing::Test {
 protected:
-    FarInstances() : set_(tests::synthetic_set()), bands_(lod::bands({}, {300, 0.006, 0.03, 3}, {})) {
+    FarInstances()
+        : set_(tests::synthetic_set()), bands_(lod::bands({}, {300, 0.006, 0.03, 3}, {})) {
         query_.eye = query_.lod_eye = {1.3f, 1.7f, -2.2f};
         query_.patch_offset = {0.75f, 1.25f};
     }
-    shells::FarList select(const std::vector<terrain::VisibleBlock>& blocks) const { return select_far(set_, blocks, bands_, query_); }
+    shells::FarList select(const std::vector<terrain::VisibleBlock>& blocks) const {
+        return select_far(set_, blocks, bands_, query_);
+    }
 
     grass::GrassSet set_;
     lod::Bands bands_;
@@ -207,7 +226,8 @@ protected:
 
 TEST_F(FarInstances, EverySlicePlaneOfABlockIsThereOnce) {
     query_.alone = true;
-    const std::vector<terrain::VisibleBlock> blocks = {block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({-24, -4}, 1.0f)};
+    const std::vector<terrain::VisibleBlock> blocks = {
+        block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({-24, -4}, 1.0f)};
     const auto list = select(blocks);
     std::map<std::pair<int, float>, int> count; // of axis and block
     for (const shared::FarInstance& slice : list.slices[0]) {
@@ -217,22 +237,26 @@ TEST_F(FarInstances, EverySlicePlaneOfABlockIsThereOnce) {
         EXPECT_LT(slice.place.x, block.corner[axis] + 8 * block.cell);
         ++count[{axis, slice.place.y}];
         // The plane shows the image of its own place in the patch.
-        const double in_patch = std::fmod(slice.place.x + query_.patch_offset[axis] + 1000.0 * set_.side_m, set_.side_m);
+        const double in_patch = std::fmod(
+            slice.place.x + query_.patch_offset[axis] + 1000.0 * set_.side_m, set_.side_m);
         const int slices = set_.levels[0].slice_count;
         const int expected = static_cast<int>(in_patch / set_.side_m * slices);
         EXPECT_EQ(slice.image.x, shared::slice_index(0, axis, expected, slices, shared::kPlaneId));
-        EXPECT_EQ(slice.image.y, shared::slice_index(1, axis, expected, slices, 0) - shared::slice_index(0, axis, expected, slices, 0));
+        EXPECT_EQ(slice.image.y, shared::slice_index(1, axis, expected, slices, 0) -
+                                     shared::slice_index(0, axis, expected, slices, 0));
     }
     EXPECT_EQ(count.size(), 6u);
     for (const auto& [key, n] : count) {
         const float side = 8 * blocks[static_cast<std::size_t>(key.second)].cell;
-        EXPECT_EQ(n, static_cast<int>(side / (set_.side_m / static_cast<float>(set_.levels[0].slice_count))));
+        EXPECT_EQ(n, static_cast<int>(
+                         side / (set_.side_m / static_cast<float>(set_.levels[0].slice_count))));
     }
 }
 
 TEST_F(FarInstances, NeighboursShareNoPlaneAndLeaveNoGap) {
     query_.alone = true;
-    const auto list = select({block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({16, 8}, 0.5f)});
+    const auto list =
+        select({block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({16, 8}, 0.5f)});
     std::set<float> planes;
     for (const shared::FarInstance& slice : list.slices[0]) {
         if (slice.image.z == shared::kAxisX) {
@@ -264,7 +288,8 @@ TEST_F(FarInstances, EveryDistanceHasTheLevelsThatShowBladesThere) {
         const auto list = select({block_at({query_.eye.x + d, query_.eye.z}, 0.01f)});
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::vec4 band = bands_.far[k];
-            const float there = glm::length(glm::vec2(d, query_.eye.y)); // to ground below the eye, about
+            const float there =
+                glm::length(glm::vec2(d, query_.eye.y)); // to ground below the eye, about
             if (there > 1.1f * band.x + 0.5f && there < 0.9f * band.w) {
                 EXPECT_FALSE(list.shells[k].empty()) << "level " << k << " at " << d;
             }
@@ -294,7 +319,8 @@ TEST_F(FarInstances, AForcedLevelIsTheOnlyOne) {
 TEST_F(FarInstances, AFamilySeenEdgeOnIsLeftOutButNeverOneThatShows) {
     query_.alone = true;
     // Due south of the eye, narrow and far: the slices across x show next to nothing there.
-    const auto far = select({block_at({query_.eye.x - 0.4f, query_.eye.z + 300}, 0.1f), block_at({query_.eye.x + 0.5f, query_.eye.z + 300}, 0.1f)});
+    const auto far = select({block_at({query_.eye.x - 0.4f, query_.eye.z + 300}, 0.1f),
+                             block_at({query_.eye.x + 0.5f, query_.eye.z + 300}, 0.1f)});
     for (const auto& level : far.slices) {
         for (const shared::FarInstance& slice : level) {
             EXPECT_EQ(slice.image.z, shared::kAxisZ);
