@@ -29,7 +29,8 @@ LevelPlan plan_level(const Preset& preset, double canopy_m, int level) {
     plan.size = static_cast<int>(preset.size) >> level;
     plan.texel_m = preset.side_m / plan.size;
     plan.layers = std::max(2, static_cast<int>(preset.layers) >> level);
-    plan.slices = std::max(2, static_cast<int>(preset.slices) >> level);
+    // Further apart than the canopy is tall, slices would show as rows from above.
+    plan.slices = std::max(4, static_cast<int>(preset.slices) >> level);
     plan.rows = slice_rows(canopy_m, plan.texel_m);
     return plan;
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kElevationsDeg = {90.0, 75.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0};
 constexpr int kRays = 32768;            // an elevation: a standard error of 0.3 points at most
-constexpr double kCoverageStep = 0.002; // below it, coverage is not worth another share
+constexpr double kCoverageStep = 0.008; // below it, coverage is not worth the shells' fragments
 
 grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double elevation_deg) {
     int hits = 0;
@@ -38,18 +38,12 @@ grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double eleva
     return row;
 }
 
-/// The share nearest to `before` with which the textures cover what the blades do. Where the shells
-/// hardly matter (grazing, behind the slices) any share does, and the one above is kept: a share
-/// that jumps about for a tenth of a point would show.
-float pick_share(const ShareCurve& curve, double coverage, float before) {
-    const auto low = std::ranges::lower_bound(curve, coverage - kCoverageStep);
-    const auto high = std::ranges::upper_bound(curve, coverage + kCoverageStep);
-    const auto share = [&](auto at) {
-        return static_cast<float>(std::clamp<std::ptrdiff_t>(at - curve.begin(), 0, kShareSteps)) /
-               kShareSteps;
-    };
-    const float least = share(low);
-    return std::clamp(before, least, std::max(least, share(high - (high != curve.begin()))));
+/// The least share with which the textures cover what the blades do: at grazing views, where the slices
+/// do it alone, shells would only cost fragments, and the most of all.
+float pick_share(const ShareCurve& curve, double coverage) {
+    const auto enough = std::ranges::lower_bound(curve, coverage - kCoverageStep);
+    return static_cast<float>(std::clamp<std::ptrdiff_t>(enough - curve.begin(), 0, kShareSteps)) /
+           kShareSteps;
 }
 
 } // namespace
@@ -76,7 +70,7 @@ void calibrate_shells(grass::GrassSet& set, int threads) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
         grass::FarRow& row = set.far[i / levels];
         float& share = shares[i % levels];
-        share = pick_share(curves[i], row.coverage, share);
+        share = pick_share(curves[i], row.coverage);
         base::log_debug(fmt::format("{:9.0f}  {:5}  {:.3f}  {:10.3f}  {:.3f}  {:10.3f}",
                                     row.elevation_deg, i % levels, row.coverage, curves[i].back(),
                                     share,

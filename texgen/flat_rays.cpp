@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/hash.h"
+#include "shared/blade.h"
+#include "shared/grass_layout.h"
 #include "texgen/rays.h"
 
 namespace sward::texgen {
@@ -21,6 +23,17 @@ const std::uint8_t* texel_of(const grass::TextureArray& array, int image, int co
     return array.mips[0].data() +
            4 * ((static_cast<std::size_t>(image) * h + static_cast<std::size_t>(row)) * w +
                 static_cast<std::size_t>(column));
+}
+
+/// Chance that a ray along `direction` sees the texel: its coverage, put right for being flattened onto
+/// the plane. `axis` is the slices', or -1 for a layer.
+double chance(const std::uint8_t* id, const std::uint8_t* shape, int axis, const glm::dvec3& direction) {
+    if (id[0] == 0)
+        return 0;
+    const glm::vec3 tangent = shared::decode_tangent(glm::vec2(shape[0], shape[1]) / 255.0f);
+    glm::vec3 flattened = tangent;
+    flattened[axis < 0 ? 1 : axis == shared::kAxisX ? 0 : 2] = 0;
+    return id[0] / 255.0 * shared::flattening(tangent, flattened, -glm::vec3(direction));
 }
 
 /// Variants in blocks of consecutive rays, each of them spread evenly.
@@ -72,10 +85,14 @@ template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit
         if (t < ray.begin)
             continue;
         const glm::dvec3 p = ray.origin + t * ray.direction;
-        const std::uint8_t* id = texel_of(
-            far_.layers, shared::layer_index(variant_, i, far_.layer_count, shared::kPlaneId),
-            wrapped(p.x, texel, far_.layers.width), wrapped(p.z, texel, far_.layers.width));
-        if (base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i)) * 255 < id[0] &&
+        const auto plane = [&](int which) {
+            return texel_of(far_.layers, shared::layer_index(variant_, i, far_.layer_count, which),
+                            wrapped(p.x, texel, far_.layers.width),
+                            wrapped(p.z, texel, far_.layers.width));
+        };
+        const std::uint8_t* id = plane(shared::kPlaneId);
+        if (base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i)) <
+                chance(id, plane(shared::kPlaneShape), -1, ray.direction) &&
             visit(FlatHit{t, y, id[3] / 255.0}, (id[2] + 0.5) / 256))
             return;
     }
@@ -107,16 +124,17 @@ void FlatField::slices(const Ray& ray, int axis, std::optional<FlatHit>& best) c
         const int row = std::clamp(static_cast<int>(p.y / set_.canopy_m * far_.slices.height), 0,
                                    far_.slices.height - 1);
         const int slice = ((m % far_.slice_count) + far_.slice_count) % far_.slice_count;
-        const std::uint8_t* id =
-            texel_of(far_.slices,
-                     shared::slice_index(variant_, axis, slice, far_.slice_count, shared::kPlaneId),
-                     wrapped(axis == shared::kAxisX ? p.z : p.x, texel, far_.slices.width), row);
+        const auto plane = [&](int which) {
+            return texel_of(far_.slices,
+                            shared::slice_index(variant_, axis, slice, far_.slice_count, which),
+                            wrapped(axis == shared::kAxisX ? p.z : p.x, texel, far_.slices.width), row);
+        };
+        const std::uint8_t* id = plane(shared::kPlaneId);
         const double seed = (id[2] + 0.5) / 256;
         if (seed < use_.slice_share * std::abs(d) / flat &&
             base::hash_unit(ray.number, static_cast<std::uint64_t>(1 + axis),
-                            static_cast<std::uint64_t>(m + (1 << 20))) *
-                    255 <
-                id[0]) {
+                            static_cast<std::uint64_t>(m + (1 << 20))) <
+                chance(id, plane(shared::kPlaneShape), axis, ray.direction)) {
             best = FlatHit{t, p.y, id[3] / 255.0};
             return;
         }

@@ -36,7 +36,7 @@ const Field kFields[] = {
     {"texture", "size", &Preset::size, 32, 2048, "texels, a power of two"},
     {"texture", "layers", &Preset::layers, 2, 256, ""},
     {"texture", "slices", &Preset::slices, 2, 256, "an axis"},
-    {"texture", "levels", &Preset::levels, 1, 5, ""},
+    {"texture", "levels", &Preset::levels, 1, 4, ""},
 };
 
 } // namespace

@@ -5,7 +5,13 @@
 #include <bit>
 #include <cmath>
 
+#include "base/hash.h"
+
 namespace sward::texgen {
+
+namespace {
+constexpr std::uint64_t kOwnerStream = 0x0e2; // of the lots for a texel's owner
+}
 namespace {
 
 constexpr int kSamples = 8; // a side: 64 bits a texel
@@ -58,7 +64,7 @@ const std::vector<Texel>& SlabRaster::draw(const Slab& slab, std::span<const Out
     all_.assign(texels, 0);
     mask_.assign(texels, 0);
     along_sum_.assign(texels, 0);
-    most_.assign(texels, 0);
+    total_.assign(texels, 0);
     const int axis = axes_of(slab.family).slab;
     const bool periodic = axis != 1;
     for (std::size_t b = 0; b < blades.size(); ++b) {
@@ -163,8 +169,9 @@ void SlabRaster::settle(std::int32_t blade) {
     for (const std::uint32_t t : touched_) {
         const int covered = std::popcount(mask_[t]);
         all_[t] |= mask_[t];
-        if (covered > most_[t]) { // blades come in order: the first keeps a tie
-            most_[t] = static_cast<std::uint8_t>(covered);
+        total_[t] = static_cast<std::uint16_t>(total_[t] + covered);
+        // By lot, weighted by area: the larger share would always win for the wide, dark lower parts.
+        if (base::hash_unit(kOwnerStream, t, static_cast<std::uint64_t>(blade)) * total_[t] < covered) {
             texels_[t].blade = blade;
             texels_[t].along = along_sum_[t] / static_cast<float>(covered);
         }

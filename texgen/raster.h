@@ -32,7 +32,7 @@ struct Slab {
 };
 
 /// What the blades show in one texel: the share of its area that any of them covers, and the blade
-/// that covers most.
+/// that shows for it: drawn by lot, weighted by the area it covers.
 struct Texel {
     float coverage = 0;
     std::int32_t blade = -1;
@@ -63,7 +63,7 @@ private:
     std::vector<std::uint64_t> all_;  ///< samples that any blade covers
     std::vector<std::uint64_t> mask_; ///< samples that the current blade covers
     std::vector<float> along_sum_;
-    std::vector<std::uint8_t> most_; ///< samples of the texel's owner so far
+    std::vector<std::uint16_t> total_; ///< samples of all blades so far, overlaps counted twice
     std::vector<std::uint32_t> touched_;
 };
 

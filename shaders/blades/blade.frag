@@ -14,5 +14,7 @@ void main() {
         !handover_near(own.x, own.z, frame.handover.xy, pixel_threshold(ivec2(gl_FragCoord.xy)), frame.mode.x)) {
         discard;
     }
-    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, along.x, along.y, own.w, tint, kTierGroupedBlade));
+    // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.
+    vec2 inside = clamp(along, 0.0, 1.0);
+    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, tint, kTierGroupedBlade));
 }

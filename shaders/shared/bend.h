@@ -34,6 +34,18 @@ SHARED_FN vec3 bend_offset(float y, float canopy, vec2 wind, float response) {
     return vec3(side.x, arc.x - y, side.y);
 }
 
+// How that warp turns a stem at rest height y: its derivative along y, (sin, cos) of the bend with the wind's direction. A tangent
+// (x, y, z) at rest becomes (x, 0, z) + y * this.
+SHARED_FN vec3 bend_turn(float y, float canopy, vec2 wind, float response) {
+    float speed = length(wind);
+    if (speed < 1e-4f) {
+        return vec3(0.0f, 1.0f, 0.0f);
+    }
+    float angle = 0.5f * kPi * bend_intensity(speed, response) * y / canopy;
+    vec2 side = wind * (sin(angle) / speed);
+    return vec3(side.x, cos(angle), side.y);
+}
+
 // W3 for a point at rest height y of a stem of length L: offset (1 - lambda) T, T = F (Vx y^2, -|V| y^2, Vz y^2). As printed,
 // (1 - lambda) T + lambda P' shrinks a calm blade to lambda of its height; here P' keeps its whole weight. F is chosen so
 // that a stem's tip moves as far to the side as B3 moves it for the same intensity, to first order: both lean alike.

@@ -26,8 +26,9 @@ struct FrameConstants {
     vec4 grass;       // offset range (m), density scale, 1 where the ground takes over from the shells, anchor above the datum (m)
     ivec4 mode;       // hand-over mode; forced far level or -1; 1 when the far tier stands alone; unused
     vec4 handover;    // band from blades to far level 0: start, end (m); width correction: wmin, wspan (pixels)
-    vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; unused
+    vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; mean blade width (m)
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
+    vec4 shell_share[9];           // share of the shells' blades shown, at view elevations 0, 1/8 .. 1 of 90 degrees; xyzw: far level
     ivec4 clip_layout;             // levels of the clipmap; unused
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance look;
@@ -36,7 +37,7 @@ struct FrameConstants {
     vec4 ground_colours[4]; // soil, bare rock, sward seen from afar (tint), unused; a: unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 9 + 64 + 16 + 256 + 64 + 64 + 112 + 64);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 9 + 64 + 144 + 16 + 256 + 64 + 64 + 112 + 64);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -54,7 +54,7 @@ SHARED_FN float handover_distance(float share, vec2 band) {
 // How far a blade's pose has moved to its shell image's, 0..1: complete before its own swap begins.
 SHARED_FN float pose_share(float rank, float distance_m, vec2 band) {
     float swap = handover_distance(min(rank + kSwapWidth, 1.0f), band);
-    return smoothstep(0.55f * swap, 0.92f * swap, distance_m);
+    return smoothstep(0.55f * swap, max(0.92f * swap, 1e-3f), distance_m); // the band may start at 0
 }
 
 // Threshold of a pixel on a 4 x 4 ordered grid, (n + 0.5) / 16 (Bayer 1973).
@@ -70,6 +70,11 @@ SHARED_FN float pixel_threshold(ivec2 pixel) {
 // horizontal view direction, so that the two families never add to more than the blade has.
 SHARED_FN bool slice_shows(float seed, float density, float direction_component) {
     return seed < density * abs(direction_component);
+}
+
+// Shells count as much as texgen's rays found that they should beside the slices; they keep the seeds that slices use last.
+SHARED_FN bool shell_shows(float seed, float density, float share) {
+    return density - seed < density * share;
 }
 
 SHARED_END

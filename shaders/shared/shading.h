@@ -20,22 +20,30 @@ struct Light {
 static_assert(sizeof(Light) == 64);
 #endif
 
-// Colour of a blade at place v along it (0 root .. 1 tip). rank and seed make it this blade's own, in every tier.
-SHARED_FN vec3 blade_albedo(GrassAppearance look, float rank, float seed, float v) {
-    uint h = hash_pcg(uint(rank * 256.0f) * 256u + uint(seed * 256.0f));
-    float hue = hash_to_unit(h) - 0.5f;
-    float value = hash_to_unit(hash_pcg(h)) - 0.5f;
+// Colour of a blade at place v along it (0 root .. 1 tip). rank and seed make it this blade's own, in every tier. `detail` 1: its
+// own; 0: the mean of all blades, for pixels that hold many of them. The mean over blades is the same at every detail.
+SHARED_FN vec3 blade_albedo(GrassAppearance look, vec2 rank_seed, float v, float detail) {
+    uint h = hash_pcg(uint(rank_seed.x * 256.0f) * 256u + uint(rank_seed.y * 256.0f));
+    float hue = (hash_to_unit(h) - 0.5f) * detail;
+    float value = (hash_to_unit(hash_pcg(h)) - 0.5f) * detail;
     float dryness = hash_to_unit(hash_pcg(h + 1u));
-    vec3 colour = mix(vec3(look.root), vec3(look.tip), v);
-    colour = colour * (1.0f + look.tip.w * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
-    // A dry blade is dry all over; many others are only at the tip.
-    float dry = dryness < look.root.w ? 0.85f : dryness > 0.6f ? 0.5f * smoothstep(0.75f, 1.0f, v) : 0.0f;
-    return max(mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), dry), vec3(0.0f, 0.0f, 0.0f));
+    // A dry blade is dry all over; of the others two in five are at the tip.
+    float dry_share = look.root.w;
+    float tip = 0.5f * smoothstep(0.75f, 1.0f, v);
+    float own_dry = dryness < dry_share ? 0.85f : dryness > 1.0f - 0.4f * (1.0f - dry_share) ? tip : 0.0f;
+    float mean_dry = 0.85f * dry_share + 0.4f * (1.0f - dry_share) * tip;
+    vec3 colour = mix(vec3(look.root), vec3(look.tip), v) * (1.0f + look.tip.w * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
+    return max(mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), mix(mean_dry, own_dry, detail)), vec3(0.0f, 0.0f, 0.0f));
+}
+
+// How much of a blade's own colour a pixel can show, by the blade's width in pixels.
+SHARED_FN float colour_detail(float width_px) {
+    return smoothstep(0.05f, 0.6f, width_px);
 }
 
 // Slow variation of a meadow's colour, the same for blades, shells and the ground that stands for them; tint 0..1.
 SHARED_FN vec3 sward_tint(float tint) {
-    return mix(vec3(0.82f, 0.98f, 0.85f), vec3(1.25f, 1.02f, 0.95f), tint);
+    return mix(vec3(0.66f, 0.90f, 0.70f), vec3(1.42f, 1.10f, 0.95f), tint);
 }
 
 // Sunlight that reaches relative height h (0 ground .. 1 top) of a canopy whose ground's normal is at cosine `slope` to the
@@ -61,7 +69,7 @@ struct GrassPoint {
 SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
     vec3 sun_way = vec3(light.to_sun);
     float tl = dot(point.tangent, sun_way);
-    float th = dot(point.tangent, normalize(sun_way + to_eye));
+    float th = dot(point.tangent, normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f))); // never of length 0
     float diffuse = look.light.x * pow(max(1.0f - tl * tl, 0.0f), 0.5f * look.light.y);
     float specular = look.light.z * pow(max(1.0f - th * th, 0.0f), 0.5f * look.light.w);
     // Against the light a blade glows: transmitted sunlight is yellower than reflected.
@@ -83,7 +91,8 @@ SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) 
 // Sky radiance in a unit direction.
 SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
     float up = max(direction.y, 0.0f);
-    vec3 sky = mix(vec3(light.horizon), vec3(light.zenith), 1.0f - pow(1.0f - up, 4.0f));
+    float low = (1.0f - up) * (1.0f - up);
+    vec3 sky = mix(vec3(light.zenith), vec3(light.horizon), low * low * (0.55f + 0.45f * low));
     float toward = max(dot(direction, vec3(light.to_sun)), 0.0f);
     float halo = 0.12f * pow(toward, 8.0f) + 0.35f * pow(toward, 64.0f);
     return sky + vec3(light.sun) * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;

@@ -6,12 +6,11 @@
 
 SHARED_BEGIN
 
-// Extended Reinhard on luminance (Reinhard et al. 2002, eq. 4): keeps hue, white at kWhite.
+// Filmic curve fitted to the ACES reference transform (Narkowicz 2015), per channel: deep shade, bright sky, no clipping.
 SHARED_FN vec3 tone_map(vec3 radiance) {
-    float white = 4.0f;
-    float l = max(dot(radiance, vec3(0.2126f, 0.7152f, 0.0722f)), 1e-6f);
-    float scale = (1.0f + l / (white * white)) / (1.0f + l);
-    return min(max(radiance * scale, vec3(0.0f, 0.0f, 0.0f)), vec3(1.0f, 1.0f, 1.0f));
+    vec3 x = max(radiance * 0.62f, vec3(0.0f, 0.0f, 0.0f));
+    vec3 y = (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f);
+    return min(y, vec3(1.0f, 1.0f, 1.0f));
 }
 
 // IEC 61966-2-1.

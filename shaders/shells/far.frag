@@ -9,7 +9,8 @@ layout(binding = TEX_FAR_IMAGES) uniform sampler2DArray far_images;
 in vec3 world;
 in vec3 rest;
 in vec4 ground_here;
-in vec2 ground_slope;
+in vec3 ground_slope;
+in vec3 turn;
 flat in ivec4 image;
 
 // Texels are as wide as a pixel from here on: above 0 coarser, cheaper for caches, and blades break up sooner.
@@ -23,6 +24,10 @@ bool own_blade(float rank, float seed, vec3 root, float dither) {
 #ifdef SLICES
     vec2 view = normalize(root.xz - frame.eye.xz);
     if (!slice_shows(seed, density, image.z == kAxisX ? view.x : view.y)) {
+        return false;
+    }
+#else
+    if (!shell_shows(seed, density, ground_slope.z)) {
         return false;
     }
 #endif
@@ -73,19 +78,30 @@ void main() {
     vec4 id = textureLod(far_images, texel.uv, texel.mip);
     vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
     vec2 offset = decode_offset(shape.ba, frame.grass.x);
-    vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope, offset), rest.z + offset.y);
+    vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope.xy, offset), rest.z + offset.y);
     float rank = unorm8_to_unit(id.g);
     float seed = unorm8_to_unit(id.b);
-    // A texel is shown whole or not, with its coverage as the chance: a hash of the texel, so that it stays put.
-    float chance = hash_to_unit(hash_ivec2(texel.cell, uint(texel.uv.z)));
-    if (id.r <= chance || !own_blade(rank, seed, root, texel.dither)) {
+    vec3 upright = decode_tangent(shape.rg);
+    vec3 tangent = vec3(upright.x, 0.0, upright.z) + upright.y * turn;
+#ifdef SLICES
+    vec3 flattened = image.z == kAxisX ? vec3(0.0, 0.0, upright.z) + upright.y * turn : vec3(upright.x, 0.0, 0.0) + upright.y * turn;
+#else
+    vec3 flattened = vec3(upright.x, 0.0, upright.z);
+#endif
+    // Each sample shows the texel or not, with its coverage as the chance: a hash of the texel, so that it stays put.
+    uint h = hash_ivec2(texel.cell, uint(texel.uv.z));
+    vec4 chances = (vec4(h & 255u, (h >> 8u) & 255u, (h >> 16u) & 255u, h >> 24u) + 0.5) / 256.0;
+    float coverage = id.r * flattening(tangent, flattened, normalize(frame.eye.xyz - world));
+    bvec4 shown = greaterThan(vec4(coverage), chances);
+    gl_SampleMask[0] = (shown.x ? 1 : 0) | (shown.y ? 2 : 0) | (shown.z ? 4 : 0) | (shown.w ? 8 : 0);
+    if (!any(shown) || !own_blade(rank, seed, root, texel.dither)) {
         discard;
     }
-    vec3 tangent = decode_tangent(shape.rg);
+    tangent = normalize(tangent);
 #ifdef SLICES
     float tier = image.z == kAxisX ? kTierSliceX : kTierSliceZ;
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, rest.y / frame.patch_grid.w, ground_here.z, ground_here.w, tier));
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier));
 }

@@ -21,7 +21,7 @@ struct Settings {
     /// Smaller saves fragments, larger keeps more parallax between layers.
     double texels_per_pixel = 4.0;
     double band_ratio = 1.3;     ///< end / start of the bands between far levels; fragments double inside a band
-    double last_band_ratio = 2.0; ///< likewise from the last level to the ground: longer, it is the eye's last cue
+    double last_band_ratio = 1.6; ///< likewise from the last level to the ground: longer, it is the eye's last cue
 };
 
 /// Distances in metres. Level k of the far tier takes a blade over in far[k].xy and hands it on in far[k].zw.

@@ -62,7 +62,7 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
         const gl::PassScope pass(timers, "clipmap");
         clipmap.update({shot.anchor.x + constants.eye.x, shot.anchor.z + constants.eye.z});
         clipmap.bind();
-        far_appearance.update(constants.light);
+        far_appearance.update(constants.light, constants.wind);
         far_appearance.bind();
     }
     const auto blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);

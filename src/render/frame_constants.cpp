@@ -46,7 +46,7 @@ shared::Light light_of(const scene::SunSpec& sun) {
     shared::Light light{};
     light.to_sun = glm::vec4(glm::vec3(to_sun), 0.55f);
     light.sun = glm::vec4(glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg)), 2.2e-5f);
-    light.zenith = glm::vec4(glm::vec3(glm::dvec3(0.22, 0.42, 0.85) * (0.05 + 0.95 * dusk)), 1.1f);
+    light.zenith = glm::vec4(glm::vec3(glm::dvec3(0.16, 0.36, 0.86) * (0.05 + 0.95 * dusk)), 1.1f);
     light.horizon = glm::vec4(glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
                                         (0.04 + 0.96 * dusk)), 1);
     return light;
@@ -62,7 +62,7 @@ void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const Fram
         out.handover.z = 0.0f; // the truth is not widened
         out.handover.w = 1e-6f;
     }
-    out.pose_band = {bands.handover.x, bands.handover.y, kSegment_px, 0};
+    out.pose_band = {bands.handover.x, bands.handover.y, kSegment_px, 0}; // w: the set's, by make_shot
     for (std::size_t k = 0; k < bands.far.size(); ++k) {
         out.far_bands[k] = bands.far[k];
     }
@@ -98,6 +98,10 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
     out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
     fill_bands(out, shot.bands, settings);
+    out.pose_band.w = static_cast<float>(mean_blade_width_m);
+    for (int i = 0; i <= 8; ++i) {
+        out.shell_share[i] = shells::shell_share_at(set, 0.5f * shared::kPi * static_cast<float>(i) / 8.0f);
+    }
     clipmap.describe(out, anchor);
     out.look = set.appearance;
     out.light = light_of(world.scene.sun);

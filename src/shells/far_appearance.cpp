@@ -7,7 +7,9 @@
 
 #include <epoxy/gl.h>
 
+#include "shared/bend.h"
 #include "shared/bindings.h"
+#include "shared/lod.h"
 
 namespace sward::shells {
 
@@ -22,8 +24,8 @@ struct Part {
     float area; // relative
 };
 
-/// Parts of blades as they stand, spread over the first variant.
-std::vector<Part> parts_of(const grass::GrassSet& set) {
+/// Parts of blades as they stand in the mean wind, spread over the first variant.
+std::vector<Part> parts_of(const grass::GrassSet& set, const glm::vec4& wind) {
     std::vector<Part> parts;
     const std::size_t count = set.variant_begin[1];
     for (int n = 0; n < kBlades; ++n) {
@@ -31,8 +33,11 @@ std::vector<Part> parts_of(const grass::GrassSet& set) {
         const glm::vec3 v1(blade.v1), v2(blade.v2);
         for (int i = 0; i < kPlaces; ++i) {
             const float v = (static_cast<float>(i) + 0.5f) / kPlaces;
-            parts.push_back({shared::blade_albedo(set.appearance, blade.root.z, blade.root.w, v), shared::blade_tangent(v1, v2, v),
-                             std::clamp(shared::blade_curve(v1, v2, v).y / set.canopy_m, 0.0f, 1.0f),
+            const float y = std::clamp(shared::blade_curve(v1, v2, v).y, 0.0f, set.canopy_m);
+            const glm::vec3 upright = shared::blade_tangent(v1, v2, v);
+            const glm::vec3 turn = shared::bend_turn(y, set.canopy_m, {wind.x, wind.y}, wind.w);
+            parts.push_back({shared::blade_albedo(set.appearance, {blade.root.z, blade.root.w}, v, 0),
+                             glm::normalize(glm::vec3(upright.x, 0, upright.z) + upright.y * turn), y / set.canopy_m,
                              blade.v1.w * (1 - v * v) * blade.shape.y});
         }
     }
@@ -80,32 +85,50 @@ glm::vec4 radiance(const std::vector<Part>& parts, const grass::GrassSet& set, c
 
 } // namespace
 
-glm::vec2 far_row_at(const grass::GrassSet& set, float sine) {
-    const auto sine_of = [](const grass::FarRow& row) { return std::sin(row.elevation_deg * shared::kPi / 180); };
-    const auto& rows = set.far; // falling elevation
-    if (sine >= sine_of(rows.front())) {
-        return {rows.front().coverage, rows.front().height};
+namespace {
+
+/// A value of the rows (falling elevation) at `place`, linear in what `place_of` makes of a row's elevation in radians, held at
+/// both ends.
+template<class PlaceOf, class Value>
+auto between_rows(const std::vector<grass::FarRow>& rows, float place, PlaceOf place_of, Value value) {
+    const auto at = [&](const grass::FarRow& row) { return place_of(row.elevation_deg * shared::kPi / 180); };
+    if (place >= at(rows.front())) {
+        return value(rows.front());
     }
     for (std::size_t i = 1; i < rows.size(); ++i) {
-        const float low = sine_of(rows[i]);
-        if (sine >= low) {
-            const float t = (sine - low) / (sine_of(rows[i - 1]) - low);
-            return glm::mix(glm::vec2(rows[i].coverage, rows[i].height), glm::vec2(rows[i - 1].coverage, rows[i - 1].height), t);
+        const float low = at(rows[i]);
+        if (place >= low) {
+            return glm::mix(value(rows[i]), value(rows[i - 1]), (place - low) / (at(rows[i - 1]) - low));
         }
     }
-    return {rows.back().coverage, rows.back().height};
+    return value(rows.back());
 }
 
-glm::vec4 canopy_radiance(const grass::GrassSet& set, const shared::Light& light, float azimuth, float sine) {
-    return radiance(parts_of(set), set, light, azimuth, sine);
+} // namespace
+
+glm::vec2 far_row_at(const grass::GrassSet& set, float sine) {
+    return between_rows(set.far, sine, [](float elevation) { return std::sin(elevation); },
+                        [](const grass::FarRow& row) { return glm::vec2(row.coverage, row.height); });
 }
 
-void FarAppearance::update(const shared::Light& light) {
-    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0) {
+glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation) {
+    const int levels = std::min(static_cast<int>(set.levels.size()), shared::kMaxFarLevels);
+    return between_rows(set.far, elevation, [](float e) { return e; }, [levels](const grass::FarRow& row) {
+        glm::vec4 shares(1);
+        for (int k = 0; k < levels; ++k) {
+            shares[k] = row.share_at(k);
+        }
+        return shares;
+    });
+}
+
+void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
+    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_) {
         return;
     }
     light_ = light;
-    const std::vector<Part> parts = parts_of(set_);
+    wind_ = wind.mean;
+    const std::vector<Part> parts = parts_of(set_, wind_);
     std::vector<glm::vec4> texels;
     for (int e = 0; e < kElevations; ++e) {
         for (int a = 0; a < kAzimuths; ++a) {

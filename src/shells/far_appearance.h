@@ -4,6 +4,7 @@
 #include "gl/texture.h"
 #include "grass/grass_set.h"
 #include "shared/shading.h"
+#include "shared/wind.h"
 
 namespace sward::shells {
 
@@ -16,20 +17,21 @@ public:
     static constexpr int kElevations = 24;
 
     explicit FarAppearance(const grass::GrassSet& set) : set_(set) {}
-    /// Computed when the light changes, in some milliseconds on the CPU.
-    void update(const shared::Light& light);
+    /// Computed when the light or the mean wind changes, in some milliseconds on the CPU.
+    void update(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
 private:
     const grass::GrassSet& set_;
     shared::Light light_{};
+    glm::vec4 wind_{0};
     gl::Texture table_;
 };
 
 /// Coverage (x) and mean height of hits over the canopy's (y) at a sine of elevation, between the set's rows.
 [[nodiscard]] glm::vec2 far_row_at(const grass::GrassSet& set, float sine);
 
-/// One texel of the table: rgb radiance, a coverage.
-[[nodiscard]] glm::vec4 canopy_radiance(const grass::GrassSet& set, const shared::Light& light, float azimuth, float sine);
+/// Share of the shells' blades that far levels 0 to 3 show at a view elevation (radians), linear between the set's rows.
+[[nodiscard]] glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation);
 
 } // namespace sward::shells

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shells/far_appearance.h"
 
 namespace sward::shells {
 
@@ -11,7 +12,7 @@ namespace {
 
 using terrain::VisibleBlock;
 
-/// A slice whose family shows less than this share of the blades everywhere in a block is not drawn there.
+/// A family that shows less than this share of the blades everywhere in a block is not drawn there.
 constexpr float kLeastShare = 0.01f;
 
 struct Span {
@@ -26,6 +27,21 @@ Span distances(const VisibleBlock& block, glm::vec3 eye, float canopy) {
     const glm::vec3 gap = glm::max(glm::max(low - eye, eye - high), glm::vec3(0));
     const glm::vec3 far = glm::max(glm::abs(low - eye), glm::abs(high - eye));
     return {glm::length(gap), glm::length(far)};
+}
+
+/// Largest share of level k's blades that the shells of a block show, over the elevations it is seen at.
+float largest_shell_share(const grass::GrassSet& set, const VisibleBlock& block, const FarQuery& query, int k) {
+    const Span span = distances(block, query.eye, set.canopy_m);
+    const float drop = query.eye.y - 0.5f * (block.low + block.high);
+    const float spread = 0.5f * block.slope * side_of(block) + set.canopy_m;
+    // A slope turns toward the eye by its own angle at most.
+    const float low = std::clamp((drop - spread) / std::max(span.farthest, 1e-3f) - block.slope, 0.0f, 1.0f);
+    const float high = std::clamp((drop + spread) / std::max(span.nearest, 1e-3f) + block.slope, 0.0f, 1.0f);
+    float largest = 0;
+    for (int i = 0; i <= 4; ++i) {
+        largest = std::max(largest, shell_share_at(set, std::asin(glm::mix(low, high, static_cast<float>(i) / 4)))[k]);
+    }
+    return largest;
 }
 
 /// Does level k show any blade between these distances?
@@ -101,7 +117,9 @@ FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& 
         const Span span = distances(block, query.lod_eye, set.canopy_m);
         for (int k = 0; k < levels; ++k) {
             if (level_shows(bands, query, k, span, levels)) {
-                add_shells(list.shells[static_cast<std::size_t>(k)], index, set, k);
+                if (largest_shell_share(set, block, query, k) >= kLeastShare) {
+                    add_shells(list.shells[static_cast<std::size_t>(k)], index, set, k);
+                }
                 add_slices(list.slices[static_cast<std::size_t>(k)], {block, index}, set, k, query);
             }
         }

@@ -27,15 +27,15 @@ bool in_hole(const Clipmap& clipmap, int level, int i, int j) {
     return offset.x >= 0 && offset.y >= 0 && offset.x < shared::kClipCells / 2 && offset.y < shared::kClipCells / 2;
 }
 
-/// Bounds of the surface over a block, world metres: nine samples and what can rise between them.
-glm::dvec2 block_range(const Surface& surface, glm::dvec2 corner, double side) {
+/// Bounds of the surface over a block, world metres: nine samples and what can rise between them; z: rise over run.
+glm::dvec3 block_range(const Surface& surface, glm::dvec2 corner, double side) {
     glm::dvec2 range(1e30, -1e30);
     for (int k = 0; k < 9; ++k) {
         const double h = surface.height(corner.x + side * 0.5 * (k % 3), corner.y + side * 0.5 * (k / 3));
         range = {std::min(range.x, h), std::max(range.y, h)};
     }
     const double slack = 0.08 * side + surface.relief_m();
-    return {range.x - slack, range.y + slack};
+    return {range.x - slack, range.y + slack, (range.y - range.x) / side};
 }
 
 } // namespace
@@ -54,11 +54,11 @@ std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& 
             }
             const glm::dvec2 corner = glm::dvec2(clipmap.window(level).first + glm::ivec2(i, j) * shared::kBlockCells) * cell;
             const glm::vec2 place(corner - glm::dvec2(anchor.x, anchor.z));
-            const auto seen = [&](glm::dvec2 range) {
-                return frustum.may_see({place.x, range.x - anchor.y, place.y},
-                                       {place.x + side, range.y - anchor.y, place.y + side});
+            const auto seen = [&](glm::dvec3 bounds) {
+                return frustum.may_see({place.x, bounds.x - anchor.y, place.y},
+                                       {place.x + side, bounds.y - anchor.y, place.y + side});
             };
-            glm::dvec2 range = surface.range();
+            glm::dvec3 range(surface.range(), 1);
             if (!seen(range)) {
                 continue;
             }
@@ -68,7 +68,7 @@ std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& 
             const glm::vec2 gap = glm::max(glm::max(place - glm::vec2(eye.x, eye.z),
                                                     glm::vec2(eye.x, eye.z) - place - static_cast<float>(side)), glm::vec2(0));
             blocks.push_back({place, static_cast<float>(cell), level, static_cast<float>(range.x - anchor.y),
-                              static_cast<float>(range.y - anchor.y), glm::length(gap)});
+                              static_cast<float>(range.y - anchor.y), static_cast<float>(range.z), glm::length(gap)});
         }
     }
     std::stable_sort(blocks.begin(), blocks.end(), [](const auto& a, const auto& b) { return a.nearest < b.nearest; });

@@ -18,6 +18,7 @@ struct VisibleBlock {
     float cell = 0;    ///< metres
     int level = 0;
     float low = 0, high = 0; ///< bounds of the ground, anchor-relative metres
+    float slope = 1;         ///< steepest rise over run within it, roughly
     float nearest = 0; ///< horizontal distance from the eye to the block (m)
 };
 
