@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Gate 1, the hand-over alone: every step of a sweep at 30 m/s is rendered twice at one pose and time, with the tiers chosen
+from this step's eye and from the step before's. The band lies in the middle of the picture, at the pixel scale of a frame
+1280 x 720 with 60 degrees. The same hand-over onto shells alone must fail."""
+import metrics
+import sward_image
+from sward_image import ImageCase
+
+SIZE, FOV, PITCH = "320x180", 16.4, -17  # focal length 625 pixels, ground from 3.5 to 10 m
+HEIGHT, SPEED, START_Z = 1.5, 30.0, 4.0
+STEPS = 7
+EVERY_STEP, SOME_STEPS = range(1, STEPS + 1), (1, 4)
+
+
+class Sweep(ImageCase):
+    @classmethod
+    def scene(cls):
+        keys = ", ".join(f"{{ t = {t}, position = [0.7, {HEIGHT}, {START_Z - SPEED * t}], pitch_deg = {PITCH} }}" for t in (0, 1))
+        return sward_image.scene_text([], extra=f"[path.sweep]\nfov_deg = {FOV}\nkeys = [ {keys} ]\n")
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.shaders = sward_image.shaders_without_slices(cls.dir / "shaders")
+        cls.now = {build: cls.sequence(build) for build in ("ships", "no_slices")}
+
+    @classmethod
+    def sequence(cls, build):
+        """Every step's picture with its own tiers, and the statistics."""
+        name = f"{build}.%d.png"
+        _, stats = cls.render(name, "--path", "sweep", "--frames", f"0:{STEPS}", size=SIZE, shaders=cls.shaders_of(build))
+        return [sward_image.load_png(cls.dir / (name % i)) for i in range(STEPS + 1)], stats["frames"]
+
+    @classmethod
+    def shaders_of(cls, build):
+        return cls.shaders if build == "no_slices" else None
+
+    @classmethod
+    def moment(cls, output, step, tiers_of, *arguments, shaders=None):
+        """Step `step` with the tiers of step `tiers_of`."""
+        eye = f"0.7,{HEIGHT},{START_Z - SPEED * tiers_of / 60}"
+        return cls.render(output, "--path", "sweep", "--time", repr(step / 60), "--frame-index", str(step),
+                          "--lod-eye", eye, *arguments, size=SIZE, shaders=shaders)[0]
+
+    def step(self, build, step, before):
+        picture = sward_image.load_png(self.moment("then.png", step, before, shaders=self.shaders_of(build)))
+        figures = metrics.pair(picture, self.now[build][0][step])
+        print(f"{build:9} step {step} tiers of {before}: {metrics.text(figures)}", flush=True)
+        return figures
+
+    def test_handover(self):
+        worst = []
+        for step in EVERY_STEP:
+            worst.append(self.step("ships", step, step - 1))
+            with self.subTest(step=step):
+                self.assertEqual(metrics.over_limits(worst[-1]), {})
+        print("worst:", metrics.text(metrics.worst(worst)))
+
+    def test_backwards(self):
+        with self.subTest():
+            self.assertEqual(metrics.over_limits(self.step("ships", 3, 4)), {})
+
+    def test_catches_shells_alone(self):
+        """A build that must fail; its worst is at least three times that of what ships, in one figure at least."""
+        ships = metrics.worst([self.step("ships", step, step - 1) for step in SOME_STEPS])
+        alone = metrics.worst([self.step("no_slices", step, step - 1) for step in SOME_STEPS])
+        print("times what ships:", metrics.text({name: alone[name] / ships[name] for name in ships if ships[name] > 0}))
+        self.assertNotEqual(metrics.over_limits(alone), {})
+
+    def test_blades_cross(self):
+        """Or the sweep would show no hand-over: pixels change tier both ways of looking at one moment, by steps that follow."""
+        now, then = (sward_image.load_exr(self.moment("tiers.exr", 4, tiers_of, "--aov", "tier")) for tiers_of in (4, 3))
+        near = [(c["tier"] > 0.5) & (c["tier"] < 2.5) for c in (now, then)]
+        taken, given = (near[0] & ~near[1]).sum(), (near[1] & ~near[0]).sum()
+        print(f"step 4: {near[0].sum()} pixels of blades, {taken} taken from the far tier, {given} given to it")
+        self.assertGreater(near[0].mean(), 0.1)
+        self.assertLess(near[0].mean(), 0.9)
+        self.assertGreater(taken, 0.01 * near[0].size)
+
+    def test_all_tiers_drew(self):
+        for frame in self.now["ships"][1]:
+            self.assertGreater(frame["blades"]["drawn"], 0)
+            self.assertGreater(frame["fragments"]["shells"], 0)
+            self.assertGreater(frame["fragments"]["slices"], 0)
+        for a, b in zip(self.now["ships"][0], self.now["ships"][0][1:]):
+            self.assertGreater(metrics.mean_difference(a, b), 1, "the eye stands still")
+
+    def test_same_moment(self):
+        """--lod-eye at the eye itself changes nothing: what the pair measures is the step alone."""
+        same = sward_image.load_png(self.moment("same.png", 2, 2))
+        self.assertEqual(metrics.mean_difference(same, self.now["ships"][0][2]), 0)
+
+
+if __name__ == "__main__":
+    sward_image.main()
