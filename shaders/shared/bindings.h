@@ -7,7 +7,7 @@
 #define BIND_FRAME 0
 #define BIND_SURFACE 1
 
-// Storage blocks.
+// Storage blocks; GL 4.5 promises 0 to 7.
 #define BIND_BLADES 0          // BladeRecord[], the set's
 #define BIND_BLADE_TILES 1     // BladeTile[], the tiles around the eye
 #define BIND_CULL_ITEMS 2      // uvec2[]: tile, first blade of a workgroup
@@ -15,8 +15,8 @@
 #define BIND_DRAW_COMMANDS 4   // DrawCommand[]: one a workgroup
 #define BIND_CULL_TOTAL 5      // uint: survivors of all batches
 #define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
-#define BIND_FAR_INSTANCES 7   // FarInstance[]
-#define BIND_BLOCK_SAMPLES 8    // BlockSample[]: kBlockPosts a block
+#define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
+#define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer

@@ -19,8 +19,7 @@ struct FrameConstants {
     mat4 clip_from_world;
     mat4 world_from_clip;
     vec4 eye;         // world; w: focal length in pixels (pixels a metre covers at one metre)
-    vec4 lod_eye;     // world place that tier selection measures from; w: time (s)
-    vec4 viewport;    // width, height, 1 / width, 1 / height (pixels)
+    vec4 lod_eye;     // world place that tier selection measures from; w: time (s), for the wind passes to come
     vec4 patch_grid;  // offset of the anchor in its patch x, z (m); side (m); canopy (m)
     ivec4 patch_tile; // tile of the anchor x, z; variants; far levels
     vec4 grass;       // offset range (m), density scale, 1 where the ground takes over from the shells, anchor above the datum (m)
@@ -34,10 +33,10 @@ struct FrameConstants {
     GrassAppearance look;
     Light light;
     WindField wind;
-    vec4 ground_colours[4]; // soil, bare rock, sward seen from afar (tint), unused; a: unused
+    vec4 ground_colours[2]; // soil, bare rock; a: unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 9 + 64 + 144 + 16 + 256 + 64 + 64 + 112 + 64);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 144 + 16 + 256 + 64 + 64 + 112 + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

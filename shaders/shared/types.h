@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bridge that lets C++ and GLSL compile the same header: GLSL's names in namespace sward::shared.
-// Structs hold float, int, vec2, vec4 and mat4 only (std430 pads vec3); C++ asserts every size.
+// Structs that cross hold no vec3 (std430 pads it); C++ asserts every size.
 #ifndef SWARD_SHARED_TYPES_H
 #define SWARD_SHARED_TYPES_H
 

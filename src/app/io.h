@@ -23,7 +23,7 @@ namespace sward::app {
 /// Error.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 /// Density mask. The core build reads none: throws Error(kBadInput).
-[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path);
+[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec);
 
 /// Extensions that -o may end in, without the dot.
 [[nodiscard]] std::vector<std::string_view> picture_extensions();

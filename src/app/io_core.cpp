@@ -25,8 +25,8 @@ scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
                             ".hgt or .raw (the core build reads no other)");
 }
 
-scene::DensityMask load_mask(const std::filesystem::path& path) {
-    throw base::input_error(ExitCode::kBadInput, path, 0, "mask", "an image",
+scene::DensityMask load_mask(const scene::TerrainSpec& spec) {
+    throw base::input_error(ExitCode::kBadInput, spec.mask, 0, "mask", "an image",
                             "none (the core build reads no images)");
 }
 

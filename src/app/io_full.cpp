@@ -13,13 +13,11 @@ std::string format_libraries() {
 }
 
 scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
-    if (spec.elevation.extension() == ".raw")
-        return scene::read_raw_elevation(spec.elevation);
     return assets::load_elevation(spec);
 }
 
-scene::DensityMask load_mask(const std::filesystem::path& path) {
-    return assets::load_mask(path);
+scene::DensityMask load_mask(const scene::TerrainSpec& spec) {
+    return assets::load_mask(spec.mask, spec.classes);
 }
 
 std::vector<std::string_view> picture_extensions() {

@@ -4,6 +4,7 @@
 #include "app/io.h"
 #include "app/paths.h"
 #include "app/set_cache.h"
+#include "base/error.h"
 
 namespace sward::app {
 
@@ -24,9 +25,12 @@ render::World load_world(const scene::Scene& scene) {
     // Quick to refuse first: a bake may take minutes.
     render::World world;
     world.scene = scene;
+    if (scene.terrain.elevation.empty())
+        throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "terrain.surface", "a mesh alone",
+                                "terrain.elevation (grass on meshes is not built yet)");
     world.elevation = load_elevation(scene.terrain);
     if (!scene.terrain.mask.empty())
-        world.mask = load_mask(scene.terrain.mask);
+        world.mask = load_mask(scene.terrain);
     world.grass = load_grass(scene);
     return world;
 }

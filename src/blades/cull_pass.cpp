@@ -13,13 +13,15 @@ CullPass::CullPass()
     : program_("cull blades", {"blades/cull.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
       commands_(kBatch * sizeof(shared::DrawCommand)), total_(sizeof(std::uint32_t)) {}
 
-void CullPass::upload(const TileList& list) {
+void CullPass::upload(const TileList& list, bool keep_total) {
     items_count_ = list.items.size();
     tiles_.reserve(list.tiles.size() * sizeof(shared::BladeTile));
     tiles_.upload(list.tiles.data(), list.tiles.size() * sizeof(shared::BladeTile));
     items_.reserve(list.items.size() * sizeof(glm::uvec2));
     items_.upload(list.items.data(), list.items.size() * sizeof(glm::uvec2));
-    total_.clear_to_zero();
+    if (!keep_total) {
+        total_.clear_to_zero();
+    }
 }
 
 void CullPass::execute(std::size_t batch) {

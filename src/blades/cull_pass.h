@@ -19,11 +19,12 @@ public:
     static constexpr std::size_t kBatch = 2048;
 
     CullPass();
-    void upload(const TileList& list);
+    /// `keep_total`: later pictures of one frame add to its count of survivors.
+    void upload(const TileList& list, bool keep_total = false);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
     /// Culls one batch; then its survivors and draw commands are ready.
     void execute(std::size_t batch);
-    /// Survivors of all batches since upload(). Waits for the GPU.
+    /// Survivors of all batches since the count began. Waits for the GPU.
     [[nodiscard]] std::uint64_t drawn() const;
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
     [[nodiscard]] int command_count() const { return command_count_; }

@@ -16,8 +16,8 @@ struct ContextInfo {
 };
 [[nodiscard]] ContextInfo context_info();
 
-/// An EGL context without a window: Mesa's surfaceless platform where there is one, else the first EGL device that gives
-/// OpenGL 4.5 core (NVIDIA). Current on this thread from construction to destruction. Throws Error(kNoGpu) that says
+/// An EGL context without a window: the first hardware EGL device that gives OpenGL 4.5 core, else Mesa's surfaceless platform
+/// (software). Current on this thread from construction to destruction. Throws Error(kNoGpu) that says
 /// what was tried.
 class HeadlessContext {
 public:

@@ -158,7 +158,7 @@ void read_head(const SetJson& set, GrassSet& out) {
 void read_far(const SetJson& set, GrassSet& out) {
     const std::size_t levels = set.array(set.root(), "levels", 1, kMaxFarLevels).size();
     float last = 90.001f;
-    for (const json& row : set.array(set.root(), "far", 0, kMaxFarRows)) {
+    for (const json& row : set.array(set.root(), "far", 1, kMaxFarRows)) {
         FarRow far;
         far.elevation_deg = set.real(row, "elevation_deg", 0, 90);
         far.coverage = set.real(row, "coverage", 0, 1);

@@ -15,8 +15,8 @@ namespace sward::lod {
 struct Settings {
     /// A blade starts to leave geometry at this width in pixels, and has left at `blade_gone_px`. Thinner keeps more geometry:
     /// blades drawn grow with the square of the distance.
-    double blade_start_px = 1.0;
-    double blade_gone_px = 0.5;
+    double blade_start_px = 1.3;
+    double blade_gone_px = 0.7;
     /// Far level 1 begins where a pixel covers this many of level 0's texels; each further level at twice the distance.
     /// Smaller saves fragments, larger keeps more parallax between layers.
     double texels_per_pixel = 4.0;

@@ -20,6 +20,7 @@ void set_gl_state() {
     glDisable(GL_SCISSOR_TEST);
     glEnable(GL_MULTISAMPLE);
     constexpr float kClear[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, kClear);
     glClearBufferfv(GL_DEPTH, 0, kClear);
 }
 
@@ -32,7 +33,7 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
     const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
                                             {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
                                              shot.constants.mode.x});
-    cull.upload(tiles);
+    cull.upload(tiles, counts.blades_considered > 0);
     blade_records.bind_storage(BIND_BLADES);
     for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
         {
@@ -43,7 +44,6 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
         passes(settings.aov).blades.execute(cull);
     }
     counts.blades_considered += tiles.considered;
-    counts.blades_drawn += cull.drawn();
 }
 
 void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
@@ -96,7 +96,7 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
         draw.screen.sky();
     }
     const gl::PassScope pass(timers, "resolve");
-    draw.screen.resolve(targets, settings.samples, 1.0f / static_cast<float>(pictures), picture == 0);
+    draw.screen.resolve(targets, 1.0f / static_cast<float>(pictures), picture == 0);
 }
 
 void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings) {

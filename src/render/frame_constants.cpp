@@ -12,7 +12,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 // Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at the hand-over, since a
 // widened blade covers more than its shell image would.
 constexpr float kWidthMin_px = 0.1f, kWidthSpan_px = 0.35f;
-constexpr float kSegment_px = 12; // longer is cheaper; a blade's curve is flat over a dozen pixels
+constexpr float kSegment_px = 18; // longer is cheaper; a blade's curve is nearly flat over so many pixels
 
 glm::dvec3 direction(double yaw_deg, double pitch_deg) {
     const double yaw = yaw_deg * kDegree, pitch = pitch_deg * kDegree;
@@ -90,7 +90,6 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.world_from_clip = glm::mat4(glm::inverse(matrix));
     out.eye = glm::vec4(glm::vec3(eye_here), static_cast<float>(focal_px));
     out.lod_eye = glm::vec4(glm::vec3(view.lod_pose.position - shot.anchor), static_cast<float>(view.time_s));
-    out.viewport = {settings.width, settings.height, 1.0 / settings.width, 1.0 / settings.height};
 
     const double side = set.side_m;
     const glm::dvec2 tile = glm::floor(anchor / side);

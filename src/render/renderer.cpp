@@ -14,7 +14,7 @@ namespace sward::render {
 
 namespace {
 
-/// Bend per m/s. Stiffer blades answer less; the canopy takes the mean, so that both tiers lean alike.
+/// Bend per m/s, from the mean stiffness of the set: every blade answers alike, so that both tiers lean alike.
 double wind_response(const grass::GrassSet& set) {
     double stiffness = 0;
     for (const shared::BladeRecord& blade : set.blades) {
@@ -92,11 +92,12 @@ FrameStats Renderer::stats() {
     }
     const FrameSettings& settings = impl_->last_settings;
     if (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells) {
-        const auto samples = static_cast<std::uint64_t>(settings.samples);
+        const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
         stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
         stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
     }
+    stats.blades_drawn = stats.blades_considered > 0 ? impl_->cull.drawn() : 0;
     stats.gpu_bytes = gl::gpu_bytes();
     return stats;
 }

@@ -41,7 +41,7 @@ struct View {
     scene::Pose pose;
     scene::Pose lod_pose;  ///< where tier selection measures distances from; equal to pose but in tests
     double time_s = 0;
-    std::uint32_t frame_index = 0;
+    std::uint32_t frame_index = 0; ///< nothing drawn depends on it yet: there is no noise in time
 };
 
 struct PassTime {

@@ -30,7 +30,7 @@ void ScreenPasses::sky() {
     glDepthFunc(GL_GREATER);
 }
 
-void ScreenPasses::resolve(const Targets& targets, int samples, float weight, bool first) {
+void ScreenPasses::resolve(const Targets& targets, float weight, bool first) {
     glDisable(GL_DEPTH_TEST);
     targets.bind_resolved();
     targets.bind_scene_textures();
@@ -42,7 +42,7 @@ void ScreenPasses::resolve(const Targets& targets, int samples, float weight, bo
         }
     }
     resolve_.use();
-    resolve_.set("samples", samples);
+    resolve_.set("samples", targets.samples());
     resolve_.set("weight", weight);
     triangle();
     glDisablei(GL_BLEND, 0);

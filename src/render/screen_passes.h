@@ -17,7 +17,7 @@ public:
     /// Fills what nothing covered. The scene targets are bound.
     void sky();
     /// Averages samples into the resolved targets, weighted; `first` replaces what they hold, later frames add to it.
-    void resolve(const Targets& targets, int samples, float weight, bool first);
+    void resolve(const Targets& targets, float weight, bool first);
     /// Resolved radiance to the 8-bit picture.
     void tone_map(const Targets& targets, float exposure);
     void reload();

@@ -56,6 +56,8 @@ void Targets::require(int width, int height, int samples, bool aov) {
     width_ = width;
     height_ = height;
     samples_ = samples;
+    glGetTextureLevelParameteriv(scene_color_.id(), 0, GL_TEXTURE_SAMPLES, &real_samples_);
+    real_samples_ = std::max(real_samples_, 1);
     aov_ = aov;
 }
 

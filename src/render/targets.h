@@ -21,6 +21,8 @@ public:
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
+    /// Samples a pixel has: the GPU may give more than were asked for.
+    [[nodiscard]] int samples() const { return real_samples_; }
     [[nodiscard]] bool aov() const { return aov_; }
     [[nodiscard]] const gl::Framebuffer& display() const { return display_; }
     [[nodiscard]] const gl::Texture& picture() const { return picture_; }
@@ -32,7 +34,7 @@ public:
     [[nodiscard]] const gl::Texture& normal() const { return normal_; }
 
 private:
-    int width_ = 0, height_ = 0, samples_ = 0;
+    int width_ = 0, height_ = 0, samples_ = 0, real_samples_ = 0;
     bool aov_ = false;
     gl::Texture scene_color_, scene_depth_, scene_data_, scene_tangent_, scene_normal_;
     gl::Texture color_, data_, tangent_, normal_, picture_;

@@ -114,7 +114,9 @@ FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& 
     const int levels = static_cast<int>(set.levels.size());
     for (std::size_t index = 0; index < blocks.size(); ++index) {
         const VisibleBlock& block = blocks[index];
-        const Span span = distances(block, query.lod_eye, set.canopy_m);
+        // A blade's root may lie outside the block that shows its tip.
+        Span span = distances(block, query.lod_eye, set.canopy_m);
+        span = {span.nearest - set.offset_range_m, span.farthest + set.offset_range_m};
         for (int k = 0; k < levels; ++k) {
             if (level_shows(bands, query, k, span, levels)) {
                 if (largest_shell_share(set, block, query, k) >= kLeastShare) {

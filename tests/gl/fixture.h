@@ -138,7 +138,6 @@ struct SmallWorld {
         frame.clip_from_world = wide_view(eye);
         frame.world_from_clip = glm::inverse(frame.clip_from_world);
         frame.eye = frame.lod_eye = glm::vec4(eye, 400);
-        frame.viewport = {160, 90, 1.0 / 160, 1.0 / 90};
         const glm::dvec2 flat(anchor.x, anchor.z),
             tile = glm::floor(flat / static_cast<double>(set.side_m));
         frame.patch_grid = glm::vec4(glm::vec2(flat - tile * static_cast<double>(set.side_m)),

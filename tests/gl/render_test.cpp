@@ -342,7 +342,7 @@ TEST_F(Render, ResolveAndToneMapOfAKnownColour) {
         glDepthMask(GL_TRUE);
         glClearBufferfv(GL_COLOR, 0, &colours[picture].x);
         glClearBufferfv(GL_DEPTH, 0, &near);
-        passes.resolve(targets, 4, 0.5f, picture == 0);
+        passes.resolve(targets, 0.5f, picture == 0);
     }
     passes.tone_map(targets, 0.8f);
     const glm::vec4 mean = 0.5f * (colours[0] + colours[1]);
