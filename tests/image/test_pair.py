@@ -48,7 +48,8 @@ class Sweep(ImageCase):
 
     def step(self, build, step, before):
         """Figures of the pixels, and of the boxes."""
-        then, now = sward_image.load_png(self.moment("then.png", step, before, shaders=self.shaders_of(build))), self.now[build][0][step]
+        then = sward_image.load_png(self.moment("then.png", step, before, shaders=self.shaders_of(build)))
+        now = self.now[build][0][step]
         pixels, boxes = metrics.pair(then, now), metrics.pair(metrics.boxed(then, BOX), metrics.boxed(now, BOX))
         print(f"{build:9} step {step} tiers of {before}: {metrics.text(pixels)}; boxes: {metrics.text(boxes)}", flush=True)
         return pixels, boxes

@@ -53,7 +53,8 @@ class Loader(ImageCase):
 
     def save_exr(self, pixels):
         channels = {name: np.ascontiguousarray(pixels[..., i], dtype=np.float32) for i, name in enumerate("RGB")}
-        OpenEXR.File({"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}, channels).write(str(self.dir / "t.exr"))
+        header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
+        OpenEXR.File(header, channels).write(str(self.dir / "t.exr"))
         return self.dir / "t.exr"
 
     def test_good(self):
