@@ -14,7 +14,7 @@
 namespace sward::texgen {
 namespace {
 
-constexpr std::array kElevationsDeg = {90.0, 75.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0};
+constexpr std::array kElevationsDeg = {90.0, 82.5, 75.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0};
 constexpr int kRays = 32768;            // an elevation: a standard error of 0.3 points at most
 constexpr double kCoverageStep = 0.008; // below it, coverage is not worth the shells' fragments
 

@@ -8,6 +8,7 @@ in vec3 normal;
 in vec2 along;
 flat in vec4 own;
 flat in float tint;
+in vec4 haze;
 
 void main() {
     if (frame.mode.x != kHandoverOff &&
@@ -16,5 +17,5 @@ void main() {
     }
     // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.
     vec2 inside = clamp(along, 0.0, 1.0);
-    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, tint, kTierGroupedBlade));
+    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, tint, kTierGroupedBlade, haze));
 }

@@ -19,6 +19,7 @@ out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
 flat out float tint;
+out vec4 haze;
 
 void main() {
     float u = gl_TessCoord.x;
@@ -40,5 +41,6 @@ void main() {
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
     tint = blade_in[0].ground.y;
+    haze = haze_of(frame.light, world - frame.eye.xyz);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -32,7 +32,9 @@ SHARED_FN vec3 blade_tangent(vec3 v1, vec3 v2, float v) {
 // A layer or slice shows a piece of blade flattened onto its plane, and so shorter or longer to the eye than it is. The ratio, as
 // the factor on its coverage: without it, leaning blades are seen too often from one side and too rarely from the other.
 SHARED_FN float flattening(vec3 tangent, vec3 flattened, vec3 to_eye) {
-    return min(length(cross(tangent, to_eye)) / max(length(cross(flattened, to_eye)), 1e-3f), 3.0f);
+    vec3 whole = cross(tangent, to_eye);
+    vec3 shown = cross(flattened, to_eye);
+    return sqrt(min(dot(whole, whole) / max(dot(shown, shown), 1e-6f), 9.0f));
 }
 
 // Unit width direction (J8, t1).

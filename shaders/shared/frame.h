@@ -13,6 +13,7 @@ SHARED_BEGIN
 
 SHARED_CONST int kMaxClipLevels = 16;
 SHARED_CONST float kNear_m = 0.05f; // near plane; reversed depth holds near / distance
+SHARED_CONST int kShareSteps = 12; // of view elevation, 7.5 degrees each
 SHARED_CONST int kClipCells = 128; // posts a side of a clipmap level; memory grows with its square
 
 struct FrameConstants {
@@ -27,7 +28,7 @@ struct FrameConstants {
     vec4 handover;    // band from blades to far level 0: start, end (m); width correction: wmin, wspan (pixels)
     vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; mean blade width (m)
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
-    vec4 shell_share[9];           // share of the shells' blades shown, at view elevations 0, 1/8 .. 1 of 90 degrees; xyzw: far level
+    vec4 shell_share[kShareSteps + 1]; // share of the shells' blades shown, by view elevation; xyzw: far level
     ivec4 clip_layout;             // levels of the clipmap; unused
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance look;
@@ -36,7 +37,7 @@ struct FrameConstants {
     vec4 ground_colours[2]; // soil, bare rock; a: unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 144 + 16 + 256 + 64 + 64 + 112 + 32);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 208 + 16 + 256 + 64 + 64 + 112 + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;
@@ -68,7 +69,8 @@ struct BlockSample {
 
 // A shell or a slice of one block. 32 bytes.
 struct FarInstance {
-    vec4 place;  // rest height (shells) or the plane's own coordinate (slices), world (m); block; unused
+    vec4 place;  // rest height (shells) or the plane's own coordinate (slices), world (m); block; cells to draw: first + 16 *
+                 // end along x (shells) or along the slice; the same along z (shells)
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus

@@ -24,9 +24,9 @@ static_assert(sizeof(Light) == 64);
 // own; 0: the mean of all blades, for pixels that hold many of them. The mean over blades is the same at every detail.
 SHARED_FN vec3 blade_albedo(GrassAppearance look, vec2 rank_seed, float v, float detail) {
     uint h = hash_pcg(uint(rank_seed.x * 256.0f) * 256u + uint(rank_seed.y * 256.0f));
-    float hue = (hash_to_unit(h) - 0.5f) * detail;
-    float value = (hash_to_unit(hash_pcg(h)) - 0.5f) * detail;
-    float dryness = hash_to_unit(hash_pcg(h + 1u));
+    float hue = (float(h & 255u) / 255.0f - 0.5f) * detail;
+    float value = (float((h >> 8u) & 255u) / 255.0f - 0.5f) * detail;
+    float dryness = float(h >> 16u) / 65536.0f;
     // A dry blade is dry all over; of the others two in five are at the tip.
     float dry_share = look.root.w;
     float tip = 0.5f * smoothstep(0.75f, 1.0f, v);
@@ -94,15 +94,19 @@ SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
     float low = (1.0f - up) * (1.0f - up);
     vec3 sky = mix(vec3(light.zenith), vec3(light.horizon), low * low * (0.55f + 0.45f * low));
     float toward = max(dot(direction, vec3(light.to_sun)), 0.0f);
-    float halo = 0.12f * pow(toward, 8.0f) + 0.35f * pow(toward, 64.0f);
+    float wide = toward * toward * toward * toward;
+    wide *= wide; // 8th power; the narrow one is the 64th
+    float narrow = wide * wide * wide * wide;
+    float halo = 0.12f * wide + 0.35f * narrow * narrow;
     return sky + vec3(light.sun) * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;
 }
 
-// Air between the eye and a surface: fades to the horizon's colour in that direction.
-SHARED_FN vec3 apply_haze(Light light, vec3 radiance, float distance_m, vec3 direction) {
-    float clear = exp(-distance_m * light.sun.w);
-    vec3 level = normalize(vec3(direction.x, 0.02f, direction.z));
-    return mix(sky_radiance(light, level), radiance, clear);
+// Air between the eye and a surface (offset from_eye, m): fades to the horizon's colour in that direction. rgb: light that the air
+// adds; a: share of the surface's that it lets through. Smooth: grass takes it at its vertices.
+SHARED_FN vec4 haze_of(Light light, vec3 from_eye) {
+    float clear = exp(-length(from_eye) * light.sun.w);
+    vec3 level = normalize(vec3(from_eye.x, 0.02f * length(from_eye) + 1e-6f, from_eye.z));
+    return vec4(sky_radiance(light, level) * (1.0f - clear), clear);
 }
 
 SHARED_END

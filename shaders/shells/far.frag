@@ -11,6 +11,7 @@ in vec3 rest;
 in vec4 ground_here;
 in vec3 ground_slope;
 in vec3 turn;
+in vec4 haze;
 flat in ivec4 image;
 
 // Texels are as wide as a pixel from here on: above 0 coarser, cheaper for caches, and blades break up sooner.
@@ -103,5 +104,5 @@ void main() {
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier));
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, haze));
 }

@@ -14,11 +14,12 @@ out vec3 rest;        // x, z at rest (world), height above the ground at rest
 out vec4 ground_here; // height of the ground (world y), grass density, cosine to the sun, tint
 out vec3 ground_slope; // dy/dx, dy/dz; share of the shells' blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
+out vec4 haze;
 flat out ivec4 image;
 
 float shell_share(vec3 from_eye, vec2 slope, int level) {
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
-    float at = asin(clamp(-dot(normalize(from_eye), normal), 0.0, 0.99999)) * (8.0 / (0.5 * kPi));
+    float at = asin(clamp(-dot(normalize(from_eye), normal), 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
     return mix(frame.shell_share[row], frame.shell_share[row + 1], at - float(row))[level];
 }
@@ -30,6 +31,8 @@ void main() {
     int first = block_index * kBlockPosts;
     int column = gl_VertexID % (kBlockCells + 1);
     int row = gl_VertexID / (kBlockCells + 1);
+    // Cells out of the level's reach collapse: nearby ones would cover most of the screen to be discarded.
+    column = clamp(column, int(instance.place.z) & 15, int(instance.place.z) >> 4);
 #ifdef SLICES
     // Between two lines of the block's grid: a slice meets the very surface that the ground's mesh has there.
     bool across_x = instance.image.z == kAxisX;
@@ -46,7 +49,8 @@ void main() {
     vec2 xz = across_x ? vec2(instance.place.x, along) : vec2(along, instance.place.x);
     float y = float(row) / rows * frame.patch_grid.w;
 #else
-    BlockSample here = samples[first + gl_VertexID];
+    row = clamp(row, int(instance.place.w) & 15, int(instance.place.w) >> 4);
+    BlockSample here = samples[first + row * (kBlockCells + 1) + column];
     vec4 ground = here.ground;
     vec4 motion = here.motion;
     vec2 xz = block.place.xy + vec2(column, row) * block.place.z;
@@ -57,6 +61,7 @@ void main() {
     turn = bend_turn(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     ground_here = ground;
     ground_slope = vec3(motion.xy, shell_share(world - frame.eye.xyz, motion.xy, instance.image.w));
+    haze = haze_of(frame.light, world - frame.eye.xyz);
     image = instance.image;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

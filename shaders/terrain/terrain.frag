@@ -37,6 +37,7 @@ void main() {
     float relight = canopy_sun(frame.light, 0.6, slope) / max(canopy_sun(frame.light, 0.6, frame.light.to_sun.y), 1e-3);
     vec3 grass = canopy.rgb * mix(1.0, relight, 0.8) * sward_tint(ground.tint);
 
-    vec3 radiance = apply_haze(frame.light, mix(soil, grass, coverage), distance_m, -to_eye);
+    vec4 haze = haze_of(frame.light, from_eye);
+    vec3 radiance = mix(soil, grass, coverage) * haze.a + haze.rgb;
     write_surface(radiance, vec3(kTierGround, coverage, 0.0), vec3(0.0), ground.normal);
 }

@@ -19,7 +19,7 @@ struct Settings {
     double blade_gone_px = 0.7;
     /// Far level 1 begins where a pixel covers this many of level 0's texels; each further level at twice the distance.
     /// Smaller saves fragments, larger keeps more parallax between layers.
-    double texels_per_pixel = 4.0;
+    double texels_per_pixel = 3.2;
     double band_ratio = 1.3;     ///< end / start of the bands between far levels; fragments double inside a band
     double last_band_ratio = 1.6; ///< likewise from the last level to the ground: longer, it is the eye's last cue
 };

@@ -98,8 +98,8 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
     fill_bands(out, shot.bands, settings);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
-    for (int i = 0; i <= 8; ++i) {
-        out.shell_share[i] = shells::shell_share_at(set, 0.5f * shared::kPi * static_cast<float>(i) / 8.0f);
+    for (int i = 0; i <= shared::kShareSteps; ++i) {
+        out.shell_share[i] = shells::shell_share_at(set, 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps);
     }
     clipmap.describe(out, anchor);
     out.look = set.appearance;

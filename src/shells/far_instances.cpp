@@ -44,14 +44,45 @@ float largest_shell_share(const grass::GrassSet& set, const VisibleBlock& block,
     return largest;
 }
 
-/// Does level k show any blade between these distances?
-bool level_shows(const lod::Bands& bands, const FarQuery& query, int k, const Span& span, int levels) {
+/// Distances (m, horizontal) between which a level may show a blade over a block.
+Span reach(const grass::GrassSet& set, const VisibleBlock& block, const lod::Bands& bands, const FarQuery& query, int k) {
     const glm::vec4 band = bands.far[static_cast<std::size_t>(k)];
+    float from = k == 0 && query.alone ? 0.0f : band.x;
+    float to = band.w;
     if (query.forced_level >= 0) {
-        return k == query.forced_level && span.nearest < bands.far[static_cast<std::size_t>(levels - 1)].w;
+        from = 0;
+        to = k == query.forced_level ? bands.far[set.levels.size() - 1].w : -1;
     }
-    const float from = k == 0 && query.alone ? 0.0f : band.x;
-    return span.farthest > from && span.nearest < band.w;
+    const float drop_most = std::max(std::abs(query.lod_eye.y - block.low), std::abs(query.lod_eye.y - block.high - set.canopy_m));
+    const float drop_least = std::max({query.lod_eye.y - block.high - set.canopy_m, block.low - query.lod_eye.y, 0.0f});
+    // A blade's root may lie as far from the texel that shows its tip as offsets go.
+    const float nearest = std::sqrt(std::max(from * from - drop_most * drop_most, 0.0f)) - set.offset_range_m;
+    const float farthest = to > drop_least ? std::sqrt(to * to - drop_least * drop_least) + set.offset_range_m : -1.0f;
+    return {nearest, farthest};
+}
+
+/// Cells of a block from `first` to before `end`; none when they are equal.
+struct Cells {
+    int first = 0, end = 0;
+    [[nodiscard]] float packed() const { return static_cast<float>(first + 16 * end); }
+};
+
+/// Of the block's cells along one axis, those that come within reach while the other coordinate runs over [low, high]; all
+/// relative to the eye.
+Cells cells_within(float start, float cell, glm::vec2 across, const Span& within) {
+    const float across_least = across.x <= 0 && across.y >= 0 ? 0.0f : std::min(std::abs(across.x), std::abs(across.y));
+    const float across_most = std::max(std::abs(across.x), std::abs(across.y));
+    Cells cells;
+    for (int i = 0; i < shared::kBlockCells; ++i) {
+        const float low = start + cell * static_cast<float>(i), high = low + cell;
+        const float least = low <= 0 && high >= 0 ? 0.0f : std::min(std::abs(low), std::abs(high));
+        const float most = std::max(std::abs(low), std::abs(high));
+        if (std::hypot(most, across_most) >= within.nearest && std::hypot(least, across_least) <= within.farthest) {
+            cells.first = cells.end == 0 ? i : cells.first;
+            cells.end = i + 1;
+        }
+    }
+    return cells;
 }
 
 /// Largest |component| on `axis` of the horizontal direction from the eye to any point of the block.
@@ -68,25 +99,34 @@ float largest_share(const VisibleBlock& block, glm::vec3 eye, int axis) {
     return low[1 - axis] < 0 && high[1 - axis] > 0 ? 1.0f : largest;
 }
 
-void add_shells(std::vector<shared::FarInstance>& out, std::size_t block, const grass::GrassSet& set, int k) {
-    const int count = set.levels[static_cast<std::size_t>(k)].layer_count;
+struct Place {
+    const VisibleBlock& block;
+    std::size_t index;
+    int level;
+    Span within;
+};
+
+void add_shells(std::vector<shared::FarInstance>& out, const Place& at, const grass::GrassSet& set, const FarQuery& query) {
+    const int count = set.levels[static_cast<std::size_t>(at.level)].layer_count;
+    const glm::vec2 low = at.block.corner - glm::vec2(query.lod_eye.x, query.lod_eye.z);
+    const glm::vec2 high = low + side_of(at.block);
+    const Cells x = cells_within(low.x, at.block.cell, {low.y, high.y}, at.within);
+    const Cells z = cells_within(low.y, at.block.cell, {low.x, high.x}, at.within);
+    if (x.end == 0 || z.end == 0) {
+        return;
+    }
     for (int i = count - 1; i >= 0; --i) {
         const float y = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * set.canopy_m;
-        out.push_back({{y, block, 0, 0},
-                       {shared::layer_index(0, i, count, shared::kPlaneId), count * shared::kPlanes, 0, k}});
+        out.push_back({{y, at.index, x.packed(), z.packed()},
+                       {shared::layer_index(0, i, count, shared::kPlaneId), count * shared::kPlanes, 0, at.level}});
     }
 }
 
-struct BlockPlace {
-    const VisibleBlock& block;
-    std::size_t index;
-};
-
-void add_slices(std::vector<shared::FarInstance>& out, const BlockPlace& at, const grass::GrassSet& set, int k,
-                const FarQuery& query) {
+void add_slices(std::vector<shared::FarInstance>& out, const Place& at, const grass::GrassSet& set, const FarQuery& query) {
     const VisibleBlock& block = at.block;
-    const int count = set.levels[static_cast<std::size_t>(k)].slice_count;
+    const int count = set.levels[static_cast<std::size_t>(at.level)].slice_count;
     const double gap = static_cast<double>(set.side_m) / count;
+    const glm::vec2 eye(query.lod_eye.x, query.lod_eye.z);
     for (int axis = 0; axis < 2; ++axis) {
         if (largest_share(block, query.eye, axis) < kLeastShare) {
             continue;
@@ -94,14 +134,17 @@ void add_slices(std::vector<shared::FarInstance>& out, const BlockPlace& at, con
         const double low = block.corner[axis] + query.patch_offset[axis];
         const int first = static_cast<int>(std::ceil(low / gap - 0.5));
         const int last = static_cast<int>(std::ceil((low + side_of(block)) / gap - 0.5)) - 1;
-        const float eye = axis == shared::kAxisX ? query.eye.x : query.eye.z;
-        const bool rising = block.corner[axis] + 0.5f * side_of(block) > eye;
+        const bool rising = block.corner[axis] + 0.5f * side_of(block) > eye[axis];
         for (int n = 0; n <= last - first; ++n) {
             const int m = rising ? first + n : last - n;
             const int slice = ((m % count) + count) % count;
             const auto plane = static_cast<float>((m + 0.5) * gap - query.patch_offset[axis]);
-            out.push_back({{plane, at.index, 0, 0},
-                           {shared::slice_index(0, axis, slice, count, shared::kPlaneId), 2 * count * shared::kPlanes, axis, k}});
+            const float off = plane - eye[axis];
+            const Cells along = cells_within(block.corner[1 - axis] - eye[1 - axis], block.cell, {off, off}, at.within);
+            if (along.end > 0) {
+                out.push_back({{plane, at.index, along.packed(), 0},
+                               {shared::slice_index(0, axis, slice, count, shared::kPlaneId), 2 * count * shared::kPlanes, axis, at.level}});
+            }
         }
     }
 }
@@ -111,19 +154,18 @@ void add_slices(std::vector<shared::FarInstance>& out, const BlockPlace& at, con
 FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& blocks, const lod::Bands& bands,
                    const FarQuery& query) {
     FarList list;
-    const int levels = static_cast<int>(set.levels.size());
     for (std::size_t index = 0; index < blocks.size(); ++index) {
         const VisibleBlock& block = blocks[index];
-        // A blade's root may lie outside the block that shows its tip.
-        Span span = distances(block, query.lod_eye, set.canopy_m);
-        span = {span.nearest - set.offset_range_m, span.farthest + set.offset_range_m};
-        for (int k = 0; k < levels; ++k) {
-            if (level_shows(bands, query, k, span, levels)) {
-                if (largest_shell_share(set, block, query, k) >= kLeastShare) {
-                    add_shells(list.shells[static_cast<std::size_t>(k)], index, set, k);
-                }
-                add_slices(list.slices[static_cast<std::size_t>(k)], {block, index}, set, k, query);
+        for (std::size_t k = 0; k < set.levels.size(); ++k) {
+            const int level = static_cast<int>(k);
+            const Place place{block, index, level, reach(set, block, bands, query, level)};
+            if (place.within.farthest < 0) {
+                continue;
             }
+            if (largest_shell_share(set, block, query, level) >= kLeastShare) {
+                add_shells(list.shells[k], place, set, query);
+            }
+            add_slices(list.slices[k], place, set, query);
         }
     }
     return list;
