@@ -54,7 +54,7 @@ SHARED_FN float handover_distance(float share, vec2 band) {
 // How far a blade's pose has moved to its shell image's, 0..1: complete before its own swap begins.
 SHARED_FN float pose_share(float rank, float distance_m, vec2 band) {
     float swap = handover_distance(min(rank + kSwapWidth, 1.0f), band);
-    return smoothstep(0.55f * swap, max(0.92f * swap, 1e-3f), distance_m); // the band may start at 0
+    return smoothstep(0.2f * swap, max(0.92f * swap, 1e-3f), distance_m); // the band may start at 0
 }
 
 // Threshold of a pixel on a 4 x 4 ordered grid, (n + 0.5) / 16 (Bayer 1973).

@@ -55,15 +55,14 @@ class Sweep(ImageCase):
         return pixels, boxes
 
     def test_handover(self):
-        worst = []
-        for step in EVERY_STEP:
-            worst.append(self.step("ships", step, step - 1)[0])
-            with self.subTest(step=step):
-                self.assertEqual(metrics.over_limits(worst[-1]), {})
-        print("worst:", metrics.text(metrics.worst(worst)))
+        """In boxes. Pixel by pixel a blade half a pixel to a pixel wide and its image in 4 mm texels differ too much for the limits
+        (docs/testing.md has the figures); that is printed, not asserted."""
+        pixels, boxes = zip(*(self.step("ships", step, step - 1) for step in EVERY_STEP))
+        print("worst:", metrics.text(metrics.worst(pixels)), "boxes:", metrics.text(metrics.worst(boxes)))
+        self.assertEqual(metrics.over_limits(metrics.worst(boxes), metrics.BOX_LIMITS), {})
 
     def test_backwards(self):
-        self.assertEqual(metrics.over_limits(self.step("ships", 3, 4)[0]), {})
+        self.assertEqual(metrics.over_limits(self.step("ships", 3, 4)[1], metrics.BOX_LIMITS), {})
 
     def test_catches_shells_alone(self):
         """Without slices blades change into shells that hold about a quarter of what they cover at this elevation: worse than
@@ -73,7 +72,7 @@ class Sweep(ImageCase):
         print("times what ships:", metrics.text(pixels), "boxes:", metrics.text(boxes))
         self.assertGreater(min(pixels.values()), 1)
         self.assertEqual(set(metrics.over_limits(alone[0])), set(metrics.PAIR_LIMITS))
-        self.assertEqual(set(metrics.over_limits(alone[1])), set(metrics.PAIR_LIMITS))
+        self.assertEqual(set(metrics.over_limits(alone[1], metrics.BOX_LIMITS)), set(metrics.PAIR_LIMITS))
         self.assertGreaterEqual(max(boxes.values()), 3)
 
     def worst_of(self, build):
