@@ -15,6 +15,10 @@ namespace sward::texgen {
 namespace {
 
 constexpr std::array kElevationsDeg = {90.0, 82.5, 75.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0};
+// Slices stand further apart than they look tall from above and would show as rows: there the shells cover almost
+// as much as the blades do, and the slices only fill up.
+constexpr std::array kSliceShares = {0.0, 0.03, 0.1, 0.35, 0.75, 1.0, 1.0, 1.0, 1.0, 1.0};
+static_assert(kSliceShares.size() == kElevationsDeg.size());
 constexpr int kRays = 32768;            // an elevation: a standard error of 0.3 points at most
 constexpr double kCoverageStep = 0.008; // below it, coverage is not worth the shells' fragments
 
@@ -55,6 +59,8 @@ std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int th
     std::vector<grass::FarRow> rows(kElevationsDeg.size());
     parallel_for(rows.size(), resolve_threads(threads),
                  [&](std::size_t i, int) { rows[i] = cast_elevation(fields, kElevationsDeg[i]); });
+    for (std::size_t i = 0; i < rows.size(); ++i)
+        rows[i].slice_share = static_cast<float>(kSliceShares[i]);
     return rows;
 }
 
@@ -63,7 +69,7 @@ void calibrate_shells(grass::GrassSet& set, int threads) {
     std::vector<ShareCurve> curves(set.far.size() * levels); // row-major
     parallel_for(curves.size(), resolve_threads(threads), [&](std::size_t i, int) {
         curves[i] = share_curve(set, static_cast<int>(i % levels),
-                                set.far[i / levels].elevation_deg, kRays);
+                                set.far[i / levels], kRays);
     });
     base::log_debug("elevation  level   rays  all shells  share  calibrated");
     std::vector<float> shares(levels, 1);

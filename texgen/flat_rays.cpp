@@ -162,11 +162,11 @@ grass::FarRow flat_coverage(const grass::GrassSet& set, int level, double elevat
     return row;
 }
 
-ShareCurve share_curve(const grass::GrassSet& set, int level, double elevation_deg, int rays) {
+ShareCurve share_curve(const grass::GrassSet& set, int level, const grass::FarRow& row, int rays) {
     std::array<int, kShareSteps + 2> needed{};
     for (int i = 0; i < rays; ++i) {
-        const FlatField field(set, variant_of(i, rays, set), level, {});
-        const SampleRay ray = sample_ray(i, elevation_deg, set.side_m, set.canopy_m);
+        const FlatField field(set, variant_of(i, rays, set), level, {1, row.slice_share});
+        const SampleRay ray = sample_ray(i, row.elevation_deg, set.side_m, set.canopy_m);
         const int n = field.share_needed(ray.origin, ray.direction, static_cast<std::uint64_t>(i));
         ++needed[static_cast<std::size_t>(n)];
     }

@@ -71,7 +71,8 @@ private:
 [[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level,
                                           double elevation_deg, FlatUse use, int rays);
 
-[[nodiscard]] ShareCurve share_curve(const grass::GrassSet& set, int level, double elevation_deg,
+/// At the row's elevation and share of the slices.
+[[nodiscard]] ShareCurve share_curve(const grass::GrassSet& set, int level, const grass::FarRow& row,
                                      int rays);
 
 } // namespace sward::texgen

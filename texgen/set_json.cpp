@@ -71,6 +71,7 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                                {"coverage", decimal(row.coverage)},
                                {"height", decimal(row.height)},
                                {"along", decimal(row.along)},
+                               {"slice_share", decimal(row.slice_share)},
                                {"shell_share", shares}});
     }
     for (const FileEntry& file : files)

@@ -29,6 +29,7 @@ struct FrameConstants {
     vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; mean blade width (m)
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
     vec4 shell_share[kShareSteps + 1]; // share of the shells' blades shown, by view elevation; xyzw: far level
+    vec4 slice_share[kShareSteps + 1]; // x: share of the slices likewise
     ivec4 clip_layout;             // levels of the clipmap; unused
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance look;
@@ -37,7 +38,7 @@ struct FrameConstants {
     vec4 ground_colours[2]; // soil, bare rock; a: unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 208 + 16 + 256 + 64 + 64 + 112 + 32);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 64 + 64 + 112 + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

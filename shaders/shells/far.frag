@@ -24,7 +24,7 @@ bool own_blade(float rank, float seed, vec3 root, float dither) {
     }
 #ifdef SLICES
     vec2 view = normalize(root.xz - frame.eye.xz);
-    if (!slice_shows(seed, density, image.z == kAxisX ? view.x : view.y)) {
+    if (!slice_shows(seed, density, ground_slope.z * (image.z == kAxisX ? view.x : view.y))) {
         return false;
     }
 #else

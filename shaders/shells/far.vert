@@ -12,16 +12,20 @@ uniform float rows; // of a slice's strip
 out vec3 world;
 out vec3 rest;        // x, z at rest (world), height above the ground at rest
 out vec4 ground_here; // height of the ground (world y), grass density, cosine to the sun, tint
-out vec3 ground_slope; // dy/dx, dy/dz; share of the shells' blades that this view shows
+out vec3 ground_slope; // dy/dx, dy/dz; share of the family's blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
 out vec4 haze;
 flat out ivec4 image;
 
-float shell_share(vec3 from_eye, vec2 slope, int level) {
+float family_share(vec3 from_eye, vec2 slope, int level) {
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float at = asin(clamp(-dot(normalize(from_eye), normal), 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
+#ifdef SLICES
+    return mix(frame.slice_share[row].x, frame.slice_share[row + 1].x, at - float(row));
+#else
     return mix(frame.shell_share[row], frame.shell_share[row + 1], at - float(row))[level];
+#endif
 }
 
 void main() {
@@ -60,7 +64,7 @@ void main() {
     world = vec3(xz.x, ground.x + y, xz.y) + bend_offset(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     turn = bend_turn(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     ground_here = ground;
-    ground_slope = vec3(motion.xy, shell_share(world - frame.eye.xyz, motion.xy, instance.image.w));
+    ground_slope = vec3(motion.xy, family_share(world - frame.eye.xyz, motion.xy, instance.image.w));
     haze = haze_of(frame.light, world - frame.eye.xyz);
     image = instance.image;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);

@@ -40,6 +40,8 @@ struct FarRow {
     /// the blades cover: a shell shows a blade while 1 - seed < shell_share (the slices use the other end of the seeds
     /// first). Linear in elevation between rows.
     float shell_share = 1;
+    /// Share of the slices' |dx| and |dz| at this elevation: from above they show as rows, and the shells suffice.
+    float slice_share = 1;
     std::vector<float> coarse_shares; ///< the same for levels 1, 2, ...: thicker slabs need more of the shells
 
     [[nodiscard]] float share_at(int level) const {

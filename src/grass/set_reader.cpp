@@ -164,6 +164,7 @@ void read_far(const SetJson& set, GrassSet& out) {
         far.coverage = set.real(row, "coverage", 0, 1);
         far.height = set.real(row, "height", 0, 1);
         far.along = set.real(row, "along", 0, 1);
+        far.slice_share = set.real(row, "slice_share", 0, 1);
         std::vector<float> shares;
         for (const json& share : set.array(row, "shell_share", levels, levels))
             shares.push_back(static_cast<float>(set.in_range(share, "shell_share", 0, 1)));

@@ -99,7 +99,9 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     fill_bands(out, shot.bands, settings);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
     for (int i = 0; i <= shared::kShareSteps; ++i) {
-        out.shell_share[i] = shells::shell_share_at(set, 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps);
+        const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;
+        out.shell_share[i] = shells::shell_share_at(set, elevation);
+        out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
     }
     clipmap.describe(out, anchor);
     out.look = set.appearance;

@@ -111,6 +111,10 @@ glm::vec2 far_row_at(const grass::GrassSet& set, float sine) {
                         [](const grass::FarRow& row) { return glm::vec2(row.coverage, row.height); });
 }
 
+float slice_share_at(const grass::GrassSet& set, float elevation) {
+    return between_rows(set.far, elevation, [](float e) { return e; }, [](const grass::FarRow& row) { return row.slice_share; });
+}
+
 glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation) {
     const int levels = std::min(static_cast<int>(set.levels.size()), shared::kMaxFarLevels);
     return between_rows(set.far, elevation, [](float e) { return e; }, [levels](const grass::FarRow& row) {

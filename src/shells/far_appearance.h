@@ -31,6 +31,9 @@ private:
 /// Coverage (x) and mean height of hits over the canopy's (y) at a sine of elevation, between the set's rows.
 [[nodiscard]] glm::vec2 far_row_at(const grass::GrassSet& set, float sine);
 
+/// Share of the slices at a view elevation (radians), likewise.
+[[nodiscard]] float slice_share_at(const grass::GrassSet& set, float elevation);
+
 /// Share of the shells' blades that far levels 0 to 3 show at a view elevation (radians), linear between the set's rows.
 [[nodiscard]] glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation);
 

@@ -58,7 +58,9 @@ TEST(FarTier, CalibrationLeavesTheMeadowsHeightAndCoarserLevels) {
 TEST(FarTier, ShareCurveIsWhatRaysMeetAtEachShare) {
     const grass::GrassSet& set = small_set();
     for (const double elevation : {75.0, 30.0}) {
-        const ShareCurve curve = share_curve(set, 1, elevation, 4000);
+        grass::FarRow row;
+        row.elevation_deg = static_cast<float>(elevation);
+        const ShareCurve curve = share_curve(set, 1, row, 4000);
         for (const std::size_t n :
              {std::size_t{0}, std::size_t{1}, std::size_t{100}, curve.size() - 1}) {
             const FlatUse use{static_cast<double>(n) / kShareSteps, 1};
