@@ -44,13 +44,19 @@ void declare(CLI::App& app, Options& o, std::vector<CLI::Option*>& set_numbers) 
     app.add_option("-o,--output", o.output,
                    "directory of the grass set; an earlier set there is replaced")
         ->required();
+    // CLI11 reads an empty text as 0.
+    const auto some_number = [](const std::string& text) {
+        return text.empty() ? std::string("found nothing, expected a number") : std::string();
+    };
     const char* help[] = {"random seed; the same seed gives the same bytes",
                           "patches that may stand side by side",
                           "texels a side at level 0, a power of two",
                           "horizontal layers at level 0", "vertical slices an axis at level 0"};
     for (std::size_t i = 0; i < o.overrides.size(); ++i)
         set_numbers.push_back(
-            app.add_option(o.overrides[i].first, o.values[i], help[i])->type_name("N"));
+            app.add_option(o.overrides[i].first, o.values[i], help[i])
+                ->type_name("N")
+                ->check(some_number));
     app.add_option("--threads", o.threads,
                    "worker threads, 0 for one a core; the result is the same")
         ->type_name("N")
