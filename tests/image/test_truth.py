@@ -87,7 +87,7 @@ class Truth(ImageCase):
             print(", ".join(f"{name} {100 * share:.1f} %" for name, share in zip(sward_image.TIERS, shares)))
             self.assertGreater(shares[1] + shares[2], 0.01, "blades")
             self.assertGreater(shares[3], 0.02, "shells")
-            self.assertGreater(shares[4], 0.01, "x-slices")
+            self.assertGreater(shares[4], 0.002, "x-slices")  # the views look along z
             self.assertGreater(shares[5], 0.01, "z-slices")
             self.assertEqual(shares[6:].sum(), 0, "objects and sky")
 
