@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every option of texgen, declared once. Values are read here and not by CLI11, whose own conversions
+// follow the locale and take an empty text for 0.
+#include "texgen/options.h"
+
+#include <charconv>
+#include <functional>
+#include <memory>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "texgen/commands.h"
+
+namespace sward::texgen {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kMaxThreads = 1024;
+constexpr int kMaxZstdLevel = 19;
+
+base::Error usage(std::string_view option, std::string_view found, std::string_view expected) {
+    return base::Error(base::ExitCode::kUsage,
+                       fmt::format("{}: found \"{}\", expected {}", option, base::printable(found),
+                                   expected));
+}
+
+/// A whole number of any size that fits; the range of the value is its reader's.
+std::int64_t whole_number(std::string_view option, std::string_view text,
+                          std::string_view expected) {
+    std::int64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc() || stop != end)
+        throw usage(option, text, expected);
+    return value;
+}
+
+/// "-o,--output" -> "--output".
+std::string shown_name(const std::string& name) {
+    return name.substr(name.rfind(',') + 1);
+}
+
+CLI::Option* declare(CLI::App& app, const std::string& name, const std::string& value,
+                     const std::string& help, std::function<void(const std::string&)> parse) {
+    return app.add_option_function<std::string>(name, std::move(parse), help)->type_name(value);
+}
+
+CLI::Option* declare_path(CLI::App& app, const std::string& name, const std::string& value,
+                          const std::string& help, std::function<void(fs::path)> take) {
+    return declare(app, name, value, help, [=](const std::string& text) {
+        if (text.empty() || text.find('\0') != std::string::npos)
+            throw usage(shown_name(name), text, "a name");
+        take(text);
+    });
+}
+
+CLI::Option* declare_path(CLI::App& app, const std::string& name, const std::string& value,
+                          const std::string& help, fs::path& path) {
+    return declare_path(app, name, value, help, [&path](const fs::path& p) { path = p; });
+}
+
+/// "sets/meadow/" names the same directory as "sets/meadow".
+fs::path directory_name(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return normal.has_filename() ? normal : normal.parent_path();
+}
+
+void declare_common(CLI::App& app, CommonOptions& o) {
+    declare(app, "--threads", "N", "worker threads, 0 for one a core; the result is the same",
+            [&o](const std::string& text) {
+                const std::string expected = fmt::format("a whole number from 0 to {}", kMaxThreads);
+                const std::int64_t n = whole_number("--threads", text, expected);
+                if (n < 0 || n > kMaxThreads)
+                    throw usage("--threads", text, expected);
+                o.threads = static_cast<int>(n);
+            });
+    app.add_flag("--json", o.json, "the report as JSON on standard output");
+    const auto verbosity = [&](const char* name, const char* help, base::Verbosity value) {
+        return app.add_flag_callback(name, [&o, value] { o.verbosity = value; }, help);
+    };
+    verbosity("-q,--quiet", "errors and warnings only", base::Verbosity::kQuiet)
+        ->excludes(verbosity("-v,--verbose", "time each step", base::Verbosity::kVerbose));
+}
+
+Compression parse_compression(const std::string& text) {
+    const std::string expected = fmt::format("none, zstd, zstd:1 to zstd:{}, or bc", kMaxZstdLevel);
+    if (text == "none")
+        return {.zstd_level = 0};
+    if (text == "zstd")
+        return {};
+    if (text == "bc")
+        return {.block = true};
+    if (!text.starts_with("zstd:"))
+        throw usage("--compression", text, expected);
+    const std::int64_t level =
+        whole_number("--compression", std::string_view(text).substr(5), expected);
+    if (level < 1 || level > kMaxZstdLevel)
+        throw usage("--compression", text, expected);
+    return {.zstd_level = static_cast<int>(level)};
+}
+
+void declare_overrides(CLI::App& app, BakeCommandOptions& o) {
+    static constexpr struct {
+        const char *option, *key, *help;
+    } kOverrides[] = {
+        {"--seed", "seed", "random seed; the same seed gives the same bytes"},
+        {"--size", "texture.size", "texels a side at level 0, a power of two"},
+        {"--variants", "patch.variants", "patches that may stand side by side"},
+        {"--layers", "texture.layers", "horizontal layers at level 0"},
+        {"--slices", "texture.slices", "vertical slices an axis at level 0"},
+        {"--levels", "texture.levels", "levels, each of half the size, layers and slices"},
+    };
+    for (const auto& entry : kOverrides)
+        declare(app, entry.option, "N", entry.help, [&o, entry](const std::string& text) {
+            const std::int64_t n = whole_number(entry.option, text, "a whole number");
+            o.overrides.push_back({entry.option, entry.key, n});
+        });
+}
+
+void declare_bake(CLI::App& app, BakeCommandOptions& o) {
+    declare(app, "PRESET", "PRESET",
+            "species preset: a TOML file, or the name of a shipped one (meadow, lawn)",
+            [&o](const std::string& text) {
+                if (text.empty())
+                    throw usage("PRESET", text, "a file or the name of a shipped preset");
+                o.preset = text;
+            });
+    declare_path(app, "-o,--output", "DIR",
+                 "directory of the grass set; an earlier set there is replaced",
+                 [&o](const fs::path& path) { o.output = directory_name(path); });
+    declare_overrides(app, o);
+    declare(app, "--compression", "none|zstd|zstd:N|bc",
+            "of the textures: zstd (level 3) as it stands, N up to 19 smaller and slower; bc: shape "
+            "planes as BC5, a quarter less on the GPU",
+            [&o](const std::string& text) { o.compression = parse_compression(text); });
+    declare(app, "--export", "png|exr",
+            "also layers and slices of level 0 as pictures, in the directory DIR-png or DIR-exr",
+            [&o](const std::string& text) {
+                if (text != "png" && text != "exr")
+                    throw usage("--export", text, "png or exr");
+                o.export_format = text == "png" ? ExportFormat::kPng : ExportFormat::kExr;
+            });
+    CLI::Option* preview =
+        declare_path(app, "--preview", "FILE", "contact sheet as FILE, instead of DIR/preview.png",
+                     [&o](const fs::path& path) { o.preview_file = path; });
+    app.add_flag_callback("--no-preview", [&o] { o.preview = false; }, "no contact sheet")
+        ->excludes(preview);
+    app.add_flag_callback("--no-volume", [&o] { o.volume = false; },
+                          "leave out volume.vdb (the renderer does not read it)");
+    app.add_flag("--checknan", o.check_nan, "look at every number written: exit 1 on NaN or infinity");
+    app.add_flag("--dry-run", o.dry_run,
+                 "check everything and tell what would be made and what it takes; write nothing");
+    declare_common(app, o);
+}
+
+void declare_seam(CLI::App& app, Options& o) {
+    declare_path(app, "IN", "IN", "layer stack or .vdb to be made seamless", o.seam.input)->required();
+    declare_path(app, "-o,--output", "OUT", "the result", o.seam.output)->required();
+    declare_common(app, o.seam);
+}
+
+void declare_import(CLI::App& app, Options& o) {
+    declare_path(app, "FILE", "FILE.vdb", "volume from another program", o.import.input)->required();
+    declare_path(app, "-o,--output", "DIR", "directory of the grass set",
+                 [&o](const fs::path& path) { o.import.output = directory_name(path); })
+        ->required();
+    declare_common(app, o.import);
+}
+
+void declare_inspect(CLI::App& app, Options& o) {
+    declare_path(app, "SET", "SET", "a grass set's directory, a .ktx2 or a .vdb file",
+                 o.inspect.input)
+        ->required();
+    declare_common(app, o.inspect);
+}
+
+void declare_verify(CLI::App& app, Options& o) {
+    declare_path(app, "SET", "SET", "a grass set's directory", o.verify.input)->required();
+    declare_common(app, o.verify);
+}
+
+/// A command beside the default one: a line here, a function in commands.h, a struct in options.h.
+struct Subcommand {
+    const char* name;
+    const char* help;
+    void (*declare)(CLI::App&, Options&);
+    int (*run)(const Options&);
+};
+
+constexpr Subcommand kSubcommands[] = {
+    {"seam", "make a layer stack or a volume seamless", declare_seam,
+     [](const Options& o) { return run_seam(o.seam); }},
+    {"import", "turn a volume from another program into a far-only set", declare_import,
+     [](const Options& o) { return run_import(o.import); }},
+    {"inspect", "print what is in a set or a file", declare_inspect,
+     [](const Options& o) { return run_inspect(o.inspect); }},
+    {"verify", "check every hash and limit of a set", declare_verify,
+     [](const Options& o) { return run_verify(o.verify); }},
+};
+
+/// What CLI11 cannot say: the default command's arguments are required only where no other is named.
+void check_bake(const CLI::App& app, const Options& o) {
+    if (o.run) {
+        for (const CLI::Option* option : app.get_options())
+            if (option->count() > 0)
+                throw base::Error(base::ExitCode::kUsage,
+                                  fmt::format("{}: found before a command, expected after it",
+                                              option->get_name()));
+        return;
+    }
+    for (const auto& [missing, name] : {std::pair{o.bake.preset.empty(), "PRESET"},
+                                        std::pair{o.bake.output.empty(), "--output"}})
+        if (missing)
+            throw base::Error(base::ExitCode::kUsage, fmt::format("{} is required", name));
+}
+
+} // namespace
+
+Options parse_options(int argc, char** argv) {
+    Options o;
+    CLI::App app("Bakes a grass set: blades, layers and slices.", "texgen");
+    app.require_subcommand(0, 1);
+    app.set_version_flag("--version", fmt::format("texgen {}", SWARD_VERSION));
+    declare_bake(app, o.bake);
+    for (const Subcommand& command : kSubcommands) {
+        CLI::App* sub = app.add_subcommand(command.name, command.help);
+        command.declare(*sub, o);
+        sub->parse_complete_callback([&o, run = command.run] { o.run = run; });
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        o.help = app.help();
+        return o;
+    } catch (const CLI::Success& done) { // --version
+        o.help = std::string(done.what()) + "\n";
+        return o;
+    } catch (const CLI::ParseError& problem) {
+        throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
+    }
+    check_bake(app, o);
+    if (!o.run)
+        o.run = [](const Options& all) { return run_bake(all.bake); };
+    return o;
+}
+
+} // namespace sward::texgen

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command line of texgen, parsed: one struct a command.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/log.h"
+
+namespace sward::texgen {
+
+/// What every command takes.
+struct CommonOptions {
+    int threads = 0; ///< 0: one a core
+    bool json = false;
+    base::Verbosity verbosity = base::Verbosity::kNormal;
+};
+
+/// How the KTX2 files of a set are packed.
+struct Compression {
+    int zstd_level = 3; ///< 0: no supercompression
+    bool block = false; ///< shape planes as BC5
+};
+
+enum class ExportFormat { kNone, kPng, kExr };
+
+/// A number of the preset that an option replaces.
+struct Override {
+    std::string option; ///< "--size"
+    std::string key;    ///< "texture.size"
+    std::int64_t value = 0;
+};
+
+/// `texgen PRESET -o DIR`.
+struct BakeCommandOptions : CommonOptions {
+    std::string preset;
+    std::filesystem::path output; ///< without a trailing slash
+    std::vector<Override> overrides;
+    Compression compression;
+    ExportFormat export_format = ExportFormat::kNone;
+    std::optional<std::filesystem::path> preview_file; ///< instead of preview.png inside the set
+    bool preview = true;
+    bool volume = true;
+    bool check_nan = false;
+    bool dry_run = false;
+};
+
+/// `texgen seam IN -o OUT`.
+struct SeamOptions : CommonOptions {
+    std::filesystem::path input;
+    std::filesystem::path output;
+};
+
+/// `texgen import FILE.vdb -o SET`.
+struct ImportOptions : CommonOptions {
+    std::filesystem::path input;
+    std::filesystem::path output;
+};
+
+/// `texgen inspect SET`.
+struct InspectOptions : CommonOptions {
+    std::filesystem::path input; ///< a set's directory, a .ktx2 or a .vdb
+};
+
+/// `texgen verify SET`.
+struct VerifyOptions : CommonOptions {
+    std::filesystem::path input;
+};
+
+struct Options {
+    BakeCommandOptions bake;
+    SeamOptions seam;
+    ImportOptions import;
+    InspectOptions inspect;
+    VerifyOptions verify;
+    std::string help; ///< the text that --help or --version asked for, or empty
+    /// The command's function; null when `help` is set.
+    int (*run)(const Options&) = nullptr;
+};
+
+/// Parses the command line. Throws base::Error(kUsage) in one line.
+[[nodiscard]] Options parse_options(int argc, char** argv);
+
+} // namespace sward::texgen
