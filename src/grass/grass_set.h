@@ -11,13 +11,20 @@
 
 namespace sward::grass {
 
-/// RGBA8 texture array with mips, the content of a KTX2 file. Mip m is max(1, width >> m) x max(1, height >> m) x layers
-/// texels, layer-major, row-major, 4 bytes a texel.
+enum class TexelFormat {
+    kRgba8,   ///< UNORM, 4 bytes a texel
+    kRgba32f, ///< 16 bytes a texel
+    kBc5,     ///< two channels UNORM in blocks of 4 x 4 texels, 16 bytes a block
+};
+
+/// Texture array with mips, the content of a KTX2 file. Mip m is max(1, width >> m) x max(1, height >> m) x layers texels,
+/// layer-major, row-major; of blocks where the format has some, those at the rim filled up.
 struct TextureArray {
     int width = 0;
     int height = 0;
     int layers = 0;
     std::vector<std::vector<std::uint8_t>> mips;
+    TexelFormat format = TexelFormat::kRgba8;
 };
 
 /// One level of the far tier: level k has texels 2^k as wide as level 0's and about half the layers and slices of level

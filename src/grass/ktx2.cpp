@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <string_view>
@@ -13,6 +14,7 @@
 #include <zstd.h>
 
 #include "base/error.h"
+#include "grass/ktx2_format.h"
 
 namespace sward::grass {
 namespace {
@@ -22,7 +24,7 @@ static_assert(std::endian::native == std::endian::little, "KTX2 is little-endian
 
 constexpr std::array<unsigned char, 12> kIdentifier = {0xAB, 'K',  'T',  'X',  ' ',  '2',
                                                        '0',  0xBB, '\r', '\n', 0x1A, '\n'};
-constexpr std::uint32_t kFormatRgba8Unorm = 37; // VK_FORMAT_R8G8B8A8_UNORM
+constexpr std::uint32_t kSchemeNone = 0;
 constexpr std::uint32_t kSchemeZstd = 2;
 constexpr std::size_t kHeaderBytes = 80; // identifier, header and index
 constexpr std::size_t kLevelBytes = 24;  // byteOffset, byteLength, uncompressedByteLength
@@ -47,31 +49,6 @@ template<typename T> T get(std::span<const std::byte> bytes, std::size_t at) {
     return value;
 }
 
-/// Basic data format descriptor of RGBA8 UNORM, linear, Rec. 709 primaries (Khronos Data
-/// Format 1.3).
-std::vector<std::byte> data_format_descriptor() {
-    constexpr std::uint16_t kBlockBytes = 24 + 4 * 16;
-    std::vector<std::byte> dfd;
-    put<std::uint32_t>(dfd, 4 + kBlockBytes);
-    put<std::uint32_t>(dfd, 0); // vendor Khronos, descriptor type basic
-    put<std::uint16_t>(dfd, 2); // version 1.3
-    put<std::uint16_t>(dfd, kBlockBytes);
-    put<std::uint32_t>(
-        dfd, 0x00010101);       // model RGBSDA, primaries BT.709, transfer linear, straight alpha
-    put<std::uint32_t>(dfd, 0); // texel block 1 x 1 x 1 x 1
-    put<std::uint64_t>(dfd, 4); // bytes of plane 0, unpacked; no other planes
-    for (int channel = 0; channel < 4; ++channel) {
-        put<std::uint16_t>(dfd, static_cast<std::uint16_t>(channel * 8)); // bit offset
-        put<std::uint8_t>(dfd, 7);                                        // bits - 1
-        put<std::uint8_t>(dfd,
-                          static_cast<std::uint8_t>(channel == 3 ? 15 : channel)); // R, G, B, A
-        put<std::uint32_t>(dfd, 0);   // sample position
-        put<std::uint32_t>(dfd, 0);   // value of 0
-        put<std::uint32_t>(dfd, 255); // value of 1
-    }
-    return dfd;
-}
-
 std::vector<std::byte> key_values() {
     constexpr std::string_view kEntry{"KTXwriter\0Sward texgen\0", 23};
     std::vector<std::byte> kvd;
@@ -83,6 +60,10 @@ std::vector<std::byte> key_values() {
 }
 
 std::vector<std::byte> pack(const std::vector<std::uint8_t>& raw, int compression) {
+    if (compression == 0) {
+        const auto* bytes = reinterpret_cast<const std::byte*>(raw.data());
+        return {bytes, bytes + raw.size()};
+    }
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                        ZSTD_freeCCtx);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression);
@@ -114,10 +95,13 @@ public:
         TextureArray array{static_cast<int>(header_.width),
                            static_cast<int>(header_.height),
                            static_cast<int>(header_.layers),
-                           {}};
+                           {},
+                           traits_->format};
         const std::vector<Level> levels = check_levels(array);
         for (const Level& level : levels)
             array.mips.push_back(unpack(level));
+        if (array.format == TexelFormat::kRgba32f)
+            check_finite(array);
         return array;
     }
 
@@ -127,23 +111,28 @@ private:
         throw base::input_error(code, name_, 0, what, found, expected);
     }
 
-    void check_format() const {
-        if (header_.format != kFormatRgba8Unorm || header_.type_size != 1)
+    void check_format() {
+        traits_ = traits_of_vk(header_.format);
+        if (!traits_)
             refuse(ExitCode::kBadInput, "format", std::to_string(header_.format),
-                   "37 (RGBA8 UNORM)");
-        if (header_.scheme != kSchemeZstd)
+                   "37 (RGBA8 UNORM), 109 (RGBA32F) or 141 (BC5 UNORM)");
+        if (header_.type_size != traits_->type_size)
+            refuse(ExitCode::kBadInput, "type size", std::to_string(header_.type_size),
+                   std::to_string(traits_->type_size));
+        if (header_.scheme != kSchemeZstd && header_.scheme != kSchemeNone)
             refuse(ExitCode::kBadInput, "supercompression", std::to_string(header_.scheme),
-                   "2 (Zstandard)");
+                   "0 (none) or 2 (Zstandard)");
         if (header_.depth != 0 || header_.faces != 1 || header_.layers == 0)
             refuse(ExitCode::kBadInput, "shape",
                    fmt::format("depth {}, faces {}, layers {}", header_.depth, header_.faces,
                                header_.layers),
                    "a 2D array");
-        const std::vector<std::byte> dfd = data_format_descriptor();
+        const std::vector<std::byte> dfd = data_format_descriptor(traits_->format);
         const std::uint64_t end = std::uint64_t{header_.dfd_offset} + header_.dfd_bytes;
         if (header_.dfd_bytes != dfd.size() || end > bytes_.size() ||
             std::memcmp(bytes_.data() + header_.dfd_offset, dfd.data(), dfd.size()) != 0)
-            refuse(ExitCode::kBadInput, "data format descriptor", "another", "linear RGBA8 UNORM");
+            refuse(ExitCode::kBadInput, "data format descriptor", "another",
+                   fmt::format("linear {}", traits_->name));
         if (std::uint64_t{header_.kvd_offset} + header_.kvd_bytes > bytes_.size())
             refuse(ExitCode::kBadInput, "key/value data", "an end beyond the file",
                    "an end inside");
@@ -185,6 +174,11 @@ private:
             if (level.offset > bytes_.size() || level.bytes > bytes_.size() - level.offset)
                 refuse(ExitCode::kBadInput, fmt::format("mip {}", m), "an end beyond the file",
                        "an end inside");
+            if (header_.scheme == kSchemeNone &&
+                (level.bytes != expected || level.offset % traits_->block_bytes != 0))
+                refuse(ExitCode::kBadInput, fmt::format("mip {}", m),
+                       fmt::format("{} bytes at {}", level.bytes, level.offset),
+                       fmt::format("{} at a multiple of {}", expected, traits_->block_bytes));
             total += expected;
             levels.push_back(level);
         }
@@ -196,6 +190,10 @@ private:
 
     std::vector<std::uint8_t> unpack(const Level& level) const {
         const std::byte* data = bytes_.data() + level.offset;
+        if (header_.scheme == kSchemeNone) {
+            const auto* first = reinterpret_cast<const std::uint8_t*>(data);
+            return {first, first + level.bytes};
+        }
         // The frame states its size: a bomb or a cut is refused before memory is taken.
         if (ZSTD_getFrameContentSize(data, level.bytes) != level.unpacked ||
             ZSTD_findFrameCompressedSize(data, level.bytes) != level.bytes)
@@ -209,31 +207,48 @@ private:
         return raw;
     }
 
+    void check_finite(const TextureArray& array) const {
+        for (const std::vector<std::uint8_t>& mip : array.mips)
+            for (std::size_t at = 0; at < mip.size(); at += sizeof(float)) {
+                float value = 0;
+                std::memcpy(&value, mip.data() + at, sizeof value);
+                if (!std::isfinite(value))
+                    refuse(ExitCode::kBadInput, "value", std::to_string(value), "a finite number");
+            }
+    }
+
     std::span<const std::byte> bytes_;
     const std::filesystem::path& name_;
     Header header_{};
+    const FormatTraits* traits_ = nullptr;
 };
 
 } // namespace
 
 std::uint64_t mip_bytes(const TextureArray& array, int mip) {
-    return static_cast<std::uint64_t>(std::max(1, array.width >> mip)) *
-           static_cast<std::uint64_t>(std::max(1, array.height >> mip)) *
-           static_cast<std::uint64_t>(array.layers) * 4;
+    const FormatTraits& traits = traits_of(array.format);
+    const auto blocks = [&](int texels) {
+        const int side = std::max(1, texels >> mip);
+        return static_cast<std::uint64_t>((side + traits.block_side - 1) / traits.block_side);
+    };
+    return blocks(array.width) * blocks(array.height) * static_cast<std::uint64_t>(array.layers) *
+           traits.block_bytes;
 }
 
 std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
-    const std::vector<std::byte> dfd = data_format_descriptor();
+    const FormatTraits& traits = traits_of(array.format);
+    const std::vector<std::byte> dfd = data_format_descriptor(array.format);
     const std::vector<std::byte> kvd = key_values();
     const std::size_t count = array.mips.size();
     const std::size_t dfd_offset = kHeaderBytes + count * kLevelBytes;
     std::vector<std::byte> out;
     for (const unsigned char c : kIdentifier)
         out.push_back(static_cast<std::byte>(c));
-    put(out, Header{kFormatRgba8Unorm, 1, static_cast<std::uint32_t>(array.width),
+    put(out, Header{traits.vk_format, traits.type_size, static_cast<std::uint32_t>(array.width),
                     static_cast<std::uint32_t>(array.height), 0,
                     static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count),
-                    kSchemeZstd, static_cast<std::uint32_t>(dfd_offset),
+                    compression == 0 ? kSchemeNone : kSchemeZstd,
+                    static_cast<std::uint32_t>(dfd_offset),
                     static_cast<std::uint32_t>(dfd.size()),
                     static_cast<std::uint32_t>(dfd_offset + dfd.size()),
                     static_cast<std::uint32_t>(kvd.size())});
@@ -247,6 +262,8 @@ std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
     for (std::size_t m = count; m-- > 0;) {
         assert(array.mips[m].size() == mip_bytes(array, static_cast<int>(m)));
         packed[m] = pack(array.mips[m], compression);
+        if (compression == 0)
+            offset = (offset + traits.block_bytes - 1) / traits.block_bytes * traits.block_bytes;
         levels[m] = {offset, packed[m].size(), array.mips[m].size()};
         offset += packed[m].size();
     }
@@ -255,8 +272,11 @@ std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
     out.insert(out.end(), dfd.begin(), dfd.end());
     out.insert(out.end(), kvd.begin(), kvd.end());
     out.reserve(offset);
-    for (std::size_t m = count; m-- > 0;)
+    for (std::size_t m = count; m-- > 0;) {
+        out.resize(levels[m].offset); // up to the alignment
         out.insert(out.end(), packed[m].begin(), packed[m].end());
+        packed[m] = {};
+    }
     return out;
 }
 

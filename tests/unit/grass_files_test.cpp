@@ -59,6 +59,93 @@ TEST(Ktx2, RoundTripKeepsEveryByte) {
     EXPECT_EQ(back.mips, array.mips);
 }
 
+grass::TextureArray noise_of(grass::TexelFormat format) {
+    grass::TextureArray array{40, 12, 3, {}, format};
+    for (int m = 0; m < 4; ++m) {
+        array.mips.emplace_back(grass::mip_bytes(array, m));
+        for (std::size_t i = 0; i < array.mips.back().size(); ++i) // 0x3F at every fourth: finite floats
+            array.mips.back()[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3F : i * 37 % 251);
+    }
+    return array;
+}
+
+TEST(Ktx2, EveryFormatWithAndWithoutZstd) {
+    for (const auto& [format, vk, mip1] :
+         {std::tuple{grass::TexelFormat::kRgba8, 37, 20 * 6 * 3 * 4},
+          std::tuple{grass::TexelFormat::kRgba32f, 109, 20 * 6 * 3 * 16},
+          std::tuple{grass::TexelFormat::kBc5, 141, 5 * 2 * 3 * 16}})
+        for (const int level : {0, 3}) {
+            const grass::TextureArray array = noise_of(format);
+            EXPECT_EQ(grass::mip_bytes(array, 1), mip1);
+            const std::vector<std::byte> bytes = grass::encode_ktx2(array, level);
+            std::uint32_t header[12];
+            std::memcpy(header, bytes.data() + 12, sizeof header);
+            EXPECT_EQ(header[0], vk);
+            EXPECT_EQ(header[8], level == 0 ? 0u : 2u);
+            const grass::TextureArray back = grass::decode_ktx2(bytes, "a.ktx2");
+            EXPECT_EQ(back.format, format);
+            EXPECT_EQ(back.mips, array.mips);
+            for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 7 : 211)
+                EXPECT_EQ(error_of([&] {
+                              (void)grass::decode_ktx2(std::span(bytes).first(size), "cut.ktx2");
+                          }).first,
+                          ExitCode::kBadInput)
+                    << size;
+            if (level == 0) { // every mip lies at a multiple of the block
+                for (int m = 0; m < 4; ++m) {
+                    std::uint64_t offset = 0;
+                    std::memcpy(&offset, bytes.data() + 80 + 24 * m, sizeof offset);
+                    EXPECT_EQ(offset % (format == grass::TexelFormat::kRgba8 ? 4 : 16), 0u);
+                }
+                std::vector<std::byte> bad = bytes;
+                bad[80] ^= std::byte{2};
+                EXPECT_EQ(error_of([&] { (void)grass::decode_ktx2(bad, "odd.ktx2"); }).first,
+                          ExitCode::kBadInput);
+            }
+        }
+}
+
+TEST(Ktx2, RefusesNanAndDescriptorsOfOtherFormats) {
+    grass::TextureArray array = noise_of(grass::TexelFormat::kRgba32f);
+    const float nan = std::nanf("");
+    std::memcpy(array.mips[2].data() + 16, &nan, sizeof nan);
+    const auto [code, text] = error_of(
+        [&] { (void)grass::decode_ktx2(grass::encode_ktx2(array, 3), "nan.ktx2"); });
+    EXPECT_EQ(code, ExitCode::kBadInput);
+    EXPECT_NE(text.find("finite"), std::string::npos) << text;
+    std::vector<std::byte> bytes = grass::encode_ktx2(noise_of(grass::TexelFormat::kBc5), 0);
+    bytes[12] = std::byte{37}; // says RGBA8, and describes BC5
+    EXPECT_EQ(error_of([&] { (void)grass::decode_ktx2(bytes, "mixed.ktx2"); }).first,
+              ExitCode::kBadInput);
+}
+
+/// Words of the data format descriptors, counted out by hand from Khronos Data Format 1.3.
+TEST(Ktx2, DescriptorsAreThoseOfTheFormat) {
+    const auto word = [](const std::vector<std::byte>& bytes, std::size_t at) {
+        std::uint32_t value = 0;
+        std::memcpy(&value, bytes.data() + at, sizeof value);
+        return value;
+    };
+    const std::vector<std::byte> bc = grass::encode_ktx2(noise_of(grass::TexelFormat::kBc5), 3);
+    std::size_t dfd = word(bc, 48);
+    EXPECT_EQ(word(bc, dfd), 60u);                  // 4 + 24 + 2 * 16
+    EXPECT_EQ(word(bc, dfd + 8), 2u | 56u << 16);   // version 1.3, block size
+    EXPECT_EQ(word(bc, dfd + 12), 0x00010184u);     // BC5, BT.709, linear
+    EXPECT_EQ(word(bc, dfd + 16), 0x0303u);         // 4 x 4
+    EXPECT_EQ(word(bc, dfd + 20), 16u);             // bytes of plane 0
+    EXPECT_EQ(word(bc, dfd + 28), 63u << 16);       // red: bits 0..63
+    EXPECT_EQ(word(bc, dfd + 40), 0xFFFFFFFFu);
+    EXPECT_EQ(word(bc, dfd + 44), 64u | 63u << 16 | 1u << 24); // green
+    const std::vector<std::byte> real = grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba32f), 0);
+    dfd = word(real, 48);
+    EXPECT_EQ(word(real, 16), 4u); // type size
+    EXPECT_EQ(word(real, dfd + 12), 0x00010101u);
+    EXPECT_EQ(word(real, dfd + 28), 0xC01F0000u);                  // red, signed float, 32 bits
+    EXPECT_EQ(word(real, dfd + 28 + 3 * 16), 0xCF1F0000u | 96u);   // alpha
+    EXPECT_EQ(word(real, dfd + 36), 0xBF800000u);                  // -1
+    EXPECT_EQ(word(real, dfd + 40), 0x3F800000u);                  // 1
+}
+
 TEST(Ktx2, RefusesCutFlippedAndForeignBytes) {
     const std::vector<std::byte> bytes = grass::encode_ktx2(noise_array(40, 12, 6), 3);
     for (std::size_t size = 0; size < bytes.size(); size += size < 400 ? 1 : 97)
