@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a set against the sizes and hashes that set.json lists.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "texgen/writer.h"
+
+namespace sward::texgen {
+
+/// The entries `files` of DIR/set.json. Throws base::Error: kIo no such directory, kBadInput no set.json or a
+/// damaged one, kOverLimit.
+[[nodiscard]] std::vector<FileEntry> listed_files(const std::filesystem::path& directory);
+
+/// The file's bytes when they are those that `entry` lists; base::Error(kBadInput) that names the file when
+/// they are not, also when it is missing.
+[[nodiscard]] std::vector<std::byte> checked_file(const std::filesystem::path& directory,
+                                                  const FileEntry& entry);
+
+/// Names in the directory that set.json does not list, sorted.
+[[nodiscard]] std::vector<std::string> unlisted_files(const std::filesystem::path& directory,
+                                                      std::span<const FileEntry> entries);
+
+} // namespace sward::texgen
