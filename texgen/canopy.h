@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "shared/blade.h"
+#include "shared/grass_layout.h"
 #include "texgen/patch.h"
 
 namespace sward::texgen {
@@ -14,21 +16,33 @@ namespace sward::texgen {
 /// a sixteenth of a blade that bends by 50 degrees is off by 0.1 mm at most, far below a texel.
 struct Outline {
     static constexpr int kSegments = 16;
+    std::array<double, kSegments + 1> v;          ///< place along the blade; half of them on a head
     std::array<glm::dvec3, kSegments + 1> centre; ///< patch coordinates, not wrapped
     std::array<double, kSegments + 1> half;       ///< half width
     glm::dvec3 across;                            ///< unit width direction
     glm::dvec3 low, high;                         ///< bounding box
 
-    [[nodiscard]] static double v_at(int i) { return static_cast<double>(i) / kSegments; }
+    /// v between stations i and i + 1.
+    [[nodiscard]] double between(int i, double share) const {
+        return std::lerp(v[static_cast<std::size_t>(i)], v[static_cast<std::size_t>(i) + 1], share);
+    }
 };
 
-[[nodiscard]] Outline outline_of(const shared::BladeRecord& blade);
-[[nodiscard]] std::vector<Outline> outlines_of(std::span<const shared::BladeRecord> blades);
+/// `species`: the set's looks, by number.
+[[nodiscard]] Outline outline_of(const shared::BladeRecord& blade,
+                                 std::span<const shared::GrassAppearance> species);
+[[nodiscard]] std::vector<Outline> outlines_of(std::span<const shared::BladeRecord> blades,
+                                               std::span<const shared::GrassAppearance> species);
+
+/// The species of a blade, an index into the set's looks.
+[[nodiscard]] inline std::size_t species_of(const shared::BladeRecord& blade) {
+    return static_cast<std::size_t>(blade.shape.w);
+}
 
 /// Top of the highest blade of any variant, metres.
 [[nodiscard]] double canopy_height(const Patch& patch);
 
-/// Farthest that any blade reaches sideways from its root, half width included, metres.
+/// Farthest that any blade reaches sideways from its root, half width included, metres: an upper bound.
 [[nodiscard]] double reach(const Patch& patch);
 
 /// Signed distance on a circle of circumference `period`, nearest image.

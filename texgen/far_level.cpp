@@ -7,6 +7,8 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "texgen/parallel.h"
+#include "texgen/placing.h"
+#include "texgen/texel_coder.h"
 
 namespace sward::texgen {
 namespace {
@@ -45,68 +47,6 @@ TextureArray empty_array(int width, int height, int layers) {
     }
 }
 
-std::uint8_t unorm8(double value) {
-    return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 1.0) * 255));
-}
-
-/// Codes the images of one slab (shaders/shared/grass_layout.h).
-class Coder {
-public:
-    Coder(const BakeFrame& frame, std::span<const shared::BladeRecord> blades, const Slab& slab)
-        : frame_(frame), blades_(blades), slab_(slab) {}
-
-    /// `id` and `shape` are the two planes' texels of this mip.
-    void code(const TexelImage& image, std::uint64_t salt, std::uint8_t* id,
-              std::uint8_t* shape) const {
-        std::size_t t = 0;
-        for (int row = 0; row < image.height; ++row)
-            for (int column = 0; column < image.width; ++column, ++t) {
-                const Texel& texel = image.texels[t];
-                if (texel.blade < 0)
-                    continue;
-                // Rounded up or down by a hash: the mean over texels holds even where coverage is
-                // below one step.
-                const double steps =
-                    texel.coverage * 255.0 + base::hash_unit(salt, 1, t) * 0.998 + 0.001;
-                const int coverage = std::clamp(static_cast<int>(steps), 0, 255);
-                if (coverage == 0)
-                    continue;
-                const shared::BladeRecord& blade = blades_[static_cast<std::size_t>(texel.blade)];
-                id[4 * t] = static_cast<std::uint8_t>(coverage);
-                id[4 * t + 1] = static_cast<std::uint8_t>(blade.root.z * 256);
-                id[4 * t + 2] = static_cast<std::uint8_t>(blade.root.w * 256);
-                id[4 * t + 3] = unorm8(texel.along);
-                code_shape(blade, texel.along, (column + 0.5) / image.width,
-                           (row + 0.5) / image.height, shape + 4 * t);
-            }
-    }
-
-private:
-    void code_shape(const shared::BladeRecord& blade, float along, double u, double v,
-                    std::uint8_t* out) const {
-        shared::vec3 tangent =
-            shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), along);
-        if (tangent.y < 0)
-            tangent = -tangent;
-        out[0] = unorm8(tangent.x * 0.5 + 0.5);
-        out[1] = unorm8(tangent.z * 0.5 + 0.5);
-        const Axes axes = axes_of(slab_.family);
-        glm::dvec3 at;
-        at[axes.slab] = (slab_.low + slab_.high) / 2;
-        at[axes.u] = u * slab_.width * slab_.texel_u;
-        at[axes.v] = v * slab_.height * slab_.texel_v;
-        const double side = slab_.side;
-        out[2] =
-            unorm8(nearest_image(blade.root.x - at.x, side) / frame_.offset_range_m * 0.5 + 0.5);
-        out[3] =
-            unorm8(nearest_image(blade.root.y - at.z, side) / frame_.offset_range_m * 0.5 + 0.5);
-    }
-
-    const BakeFrame& frame_;
-    std::span<const shared::BladeRecord> blades_;
-    const Slab& slab_;
-};
-
 /// One worker's task: a slab of a variant, from blades to coded mips.
 struct Task {
     int variant = 0;
@@ -119,23 +59,28 @@ struct Task {
     void run(const BakeFrame& frame, std::span<const Outline> outlines, SlabRaster& raster) const {
         const Coder coder(frame, frame.patch.variant(variant), slab);
         TexelImage image{slab.width, slab.height, raster.draw(slab, outlines)};
+        const double ratio = alpha_ratio(image);
         for (std::size_t m = 0; m < array->mips.size(); ++m) {
             if (m > 0)
                 image = next_mip(image, salt + m);
+            TexelImage shown = image;
+            if (m > 0)
+                keep_alpha(shown, ratio, frame.common);
             const std::size_t bytes = image.texels.size() * 4;
             std::uint8_t* data = array->mips[m].data();
-            coder.code(image, salt + m, data + bytes * static_cast<std::size_t>(id_index),
+            coder.code(shown, data + bytes * static_cast<std::size_t>(id_index),
                        data + bytes * static_cast<std::size_t>(shape_index));
         }
     }
 };
 
-Slab layer_slab(const BakeFrame& frame, const LevelPlan& plan, int layer) {
-    const double thick = frame.canopy_m / plan.layers;
+Slab layer_slab(const BakeFrame& frame, const LevelPlan& plan, const grass::FarLevel& far, int layer) {
+    const auto at = static_cast<std::size_t>(layer);
     // The highest tip lies on the canopy's top: rounding must not cut it off.
-    const double top = layer + 1 == plan.layers ? frame.canopy_m * (1 + 1e-9) : (layer + 1) * thick;
-    return {Family::kLayer, layer * thick, top,          plan.size,
-            plan.size,      plan.texel_m,  plan.texel_m, frame.patch.side_m};
+    const double top = far.layer_edges[at + 1] * (layer + 1 == plan.layers ? 1 + 1e-6 : 1);
+    return {Family::kLayer, far.layer_edges[at], top,          plan.size,
+            plan.size,      plan.texel_m,        plan.texel_m, frame.patch.side_m,
+            frame.preset.wrap};
 }
 
 Slab slice_slab(const BakeFrame& frame, const LevelPlan& plan, int axis, int slice) {
@@ -147,7 +92,8 @@ Slab slice_slab(const BakeFrame& frame, const LevelPlan& plan, int axis, int sli
             plan.rows,
             plan.texel_m,
             frame.canopy_m / plan.rows,
-            frame.patch.side_m};
+            frame.patch.side_m,
+            frame.preset.wrap};
 }
 
 std::vector<Task> plan_tasks(const BakeFrame& frame, const LevelPlan& plan, grass::FarLevel& out) {
@@ -159,7 +105,7 @@ std::vector<Task> plan_tasks(const BakeFrame& frame, const LevelPlan& plan, gras
     };
     for (int v = 0; v < frame.patch.variants(); ++v) {
         for (int i = 0; i < plan.layers; ++i)
-            tasks.push_back({v, layer_slab(frame, plan, i), &out.layers,
+            tasks.push_back({v, layer_slab(frame, plan, out, i), &out.layers,
                              shared::layer_index(v, i, plan.layers, shared::kPlaneId),
                              shared::layer_index(v, i, plan.layers, shared::kPlaneShape),
                              salt(0, i)});
@@ -203,11 +149,14 @@ grass::FarLevel bake_level(const BakeFrame& frame, int level) {
     grass::FarLevel out;
     out.layer_count = plan.layers;
     out.slice_count = plan.slices;
+    const Placing placing = place_layers(frame.seen, frame.canopy_m, plan.layers);
+    out.layer_edges = placing.edges;
+    out.layer_heights = placing.heights;
     out.layers = empty_array(plan.size, plan.size, variants * plan.layers * shared::kPlanes);
     out.slices = empty_array(plan.size, plan.rows, variants * 2 * plan.slices * shared::kPlanes);
     std::vector<std::vector<Outline>> outlines;
     for (int v = 0; v < variants; ++v)
-        outlines.push_back(outlines_of(frame.patch.variant(v)));
+        outlines.push_back(outlines_of(frame.patch.variant(v), frame.patch.looks));
     const std::vector<Task> tasks = plan_tasks(frame, plan, out);
     const int threads = resolve_threads(frame.threads);
     std::vector<SlabRaster> rasters(static_cast<std::size_t>(threads));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "grass/grass_set.h"
 #include "texgen/patch.h"
 #include "texgen/preset.h"
@@ -18,6 +20,8 @@ struct BakeFrame {
     const Patch& patch;
     double canopy_m = 0;
     double offset_range_m = 0;
+    std::span<const double> seen; ///< heights that rays meet, rising: layers stand where they matter (placing.h)
+    std::span<const char> common; ///< of a variant's blades, by index: all variants share it
     int threads = 1;
     base::Progress* progress = nullptr; ///< advances by level_images() a level
 };

@@ -43,11 +43,17 @@ grass::FarRow cast_elevation(const std::vector<BladeField>& fields, double eleva
 }
 
 /// The least share with which the textures cover what the blades do: at grazing views, where the slices
-/// do it alone, shells would only cost fragments, and the most of all.
-float pick_share(const ShareCurve& curve, double coverage) {
-    const auto enough = std::ranges::lower_bound(curve, coverage - kCoverageStep);
-    return static_cast<float>(std::clamp<std::ptrdiff_t>(enough - curve.begin(), 0, kShareSteps)) /
-           kShareSteps;
+/// do it alone, shells would only cost fragments, and the most of all. Or the greatest that helps.
+float pick_share(const std::vector<float>& needed, double coverage) {
+    const auto wanted = static_cast<std::size_t>(std::max(0.0, coverage - kCoverageStep) * static_cast<double>(needed.size()));
+    if (wanted == 0)
+        return 0;
+    const auto helps = static_cast<std::size_t>(std::ranges::upper_bound(needed, static_cast<float>(grass::kMaxShellShare)) - needed.begin());
+    return helps == 0 ? 1.0f : needed[std::min(wanted, helps) - 1];
+}
+
+double coverage_at(const std::vector<float>& needed, float share) {
+    return static_cast<double>(std::ranges::upper_bound(needed, share) - needed.begin()) / static_cast<double>(needed.size());
 }
 
 } // namespace
@@ -55,7 +61,7 @@ float pick_share(const ShareCurve& curve, double coverage) {
 std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int threads) {
     std::vector<BladeField> fields;
     for (int v = 0; v < patch.variants(); ++v)
-        fields.emplace_back(patch.variant(v), patch.side_m, canopy_m);
+        fields.emplace_back(patch.variant(v), patch.looks, patch.side_m, canopy_m);
     std::vector<grass::FarRow> rows(kElevationsDeg.size());
     parallel_for(rows.size(), resolve_threads(threads),
                  [&](std::size_t i, int) { rows[i] = cast_elevation(fields, kElevationsDeg[i]); });
@@ -66,9 +72,9 @@ std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int th
 
 void calibrate_shells(grass::GrassSet& set, int threads) {
     const std::size_t levels = set.levels.size();
-    std::vector<ShareCurve> curves(set.far.size() * levels); // row-major
+    std::vector<std::vector<float>> curves(set.far.size() * levels); // row-major
     parallel_for(curves.size(), resolve_threads(threads), [&](std::size_t i, int) {
-        curves[i] = share_curve(set, static_cast<int>(i % levels),
+        curves[i] = shares_needed(set, static_cast<int>(i % levels),
                                 set.far[i / levels], kRays);
     });
     base::log_debug("elevation  level   rays  all shells  share  calibrated");
@@ -78,9 +84,8 @@ void calibrate_shells(grass::GrassSet& set, int threads) {
         float& share = shares[i % levels];
         share = pick_share(curves[i], row.coverage);
         base::log_debug(fmt::format("{:9.0f}  {:5}  {:.3f}  {:10.3f}  {:.3f}  {:10.3f}",
-                                    row.elevation_deg, i % levels, row.coverage, curves[i].back(),
-                                    share,
-                                    curves[i][static_cast<std::size_t>(share * kShareSteps)]));
+                                    row.elevation_deg, i % levels, row.coverage,
+                                    coverage_at(curves[i], 1), share, coverage_at(curves[i], share)));
         if (i % levels + 1 == levels) {
             row.shell_share = shares[0];
             row.coarse_shares.assign(shares.begin() + 1, shares.end());

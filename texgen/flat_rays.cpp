@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/hash.h"
 #include "shared/blade.h"
@@ -61,7 +62,7 @@ std::optional<FlatHit> FlatField::cast(glm::dvec3 origin, glm::dvec3 direction,
     return best;
 }
 
-int FlatField::share_needed(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t ray) const {
+double FlatField::share_needed(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t ray) const {
     const Ray r = ray_of(origin, direction, ray);
     std::optional<FlatHit> side;
     for (const int axis : {shared::kAxisX, shared::kAxisZ})
@@ -69,18 +70,18 @@ int FlatField::share_needed(glm::dvec3 origin, glm::dvec3 direction, std::uint64
             slices(r, axis, side);
     if (side)
         return 0;
-    double least = 2; // above any 1 - seed
-    walk_shells(r, [&](const FlatHit&, double seed) {
-        least = std::min(least, 1 - seed);
+    double least = std::numeric_limits<double>::infinity();
+    walk_shells(r, [&](const FlatHit&, double share) {
+        least = std::min(least, share);
         return false;
     });
-    return least > 1 ? kShareSteps + 1 : static_cast<int>(std::floor(least * kShareSteps)) + 1;
+    return least;
 }
 
 template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit& visit) const {
     const double texel = static_cast<double>(set_.side_m) / far_.layers.width;
     for (int i = far_.layer_count - 1; i >= 0; --i) {
-        const double y = (i + 0.5) / far_.layer_count * set_.canopy_m;
+        const double y = far_.layer_heights[static_cast<std::size_t>(i)];
         const double t = (y - ray.origin.y) / ray.direction.y;
         if (t < ray.begin)
             continue;
@@ -91,16 +92,22 @@ template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit
                             wrapped(p.z, texel, far_.layers.width));
         };
         const std::uint8_t* id = plane(shared::kPlaneId);
-        if (base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i)) <
-                chance(id, plane(shared::kPlaneShape), -1, ray.direction) &&
-            visit(FlatHit{t, y, id[3] / 255.0}, (id[2] + 0.5) / 256))
+        const double odds = chance(id, plane(shared::kPlaneShape), -1, ray.direction);
+        if (odds <= 0)
+            continue;
+        const double lot = base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i));
+        const double seed = (id[2] + 0.5) / 256;
+        // Below 1 the share picks blades by seed (a step above 1 - seed shows it); above, it scales their coverage.
+        const double share = lot < odds ? 1 - seed + 0.5 / 256 : lot / odds;
+        if (share <= grass::kMaxShellShare &&
+            visit(FlatHit{t, y, shared::decode_along(id[3])}, share))
             return;
     }
 }
 
 void FlatField::shells(const Ray& ray, std::optional<FlatHit>& best) const {
-    walk_shells(ray, [&](const FlatHit& hit, double seed) {
-        if (1 - seed < use_.shell_share)
+    walk_shells(ray, [&](const FlatHit& hit, double share) {
+        if (share <= use_.shell_share)
             best = hit;
         return best.has_value();
     });
@@ -135,7 +142,7 @@ void FlatField::slices(const Ray& ray, int axis, std::optional<FlatHit>& best) c
             base::hash_unit(ray.number, static_cast<std::uint64_t>(1 + axis),
                             static_cast<std::uint64_t>(m + (1 << 20))) <
                 chance(id, plane(shared::kPlaneShape), axis, ray.direction)) {
-            best = FlatHit{t, p.y, id[3] / 255.0};
+            best = FlatHit{t, p.y, shared::decode_along(id[3])};
             return;
         }
     }
@@ -162,21 +169,17 @@ grass::FarRow flat_coverage(const grass::GrassSet& set, int level, double elevat
     return row;
 }
 
-ShareCurve share_curve(const grass::GrassSet& set, int level, const grass::FarRow& row, int rays) {
-    std::array<int, kShareSteps + 2> needed{};
+std::vector<float> shares_needed(const grass::GrassSet& set, int level, const grass::FarRow& row,
+                                 int rays) {
+    std::vector<float> needed;
     for (int i = 0; i < rays; ++i) {
         const FlatField field(set, variant_of(i, rays, set), level, {1, row.slice_share});
         const SampleRay ray = sample_ray(i, row.elevation_deg, set.side_m, set.canopy_m);
-        const int n = field.share_needed(ray.origin, ray.direction, static_cast<std::uint64_t>(i));
-        ++needed[static_cast<std::size_t>(n)];
+        needed.push_back(static_cast<float>(
+            field.share_needed(ray.origin, ray.direction, static_cast<std::uint64_t>(i))));
     }
-    ShareCurve curve;
-    int hits = 0;
-    for (std::size_t n = 0; n < curve.size(); ++n) {
-        hits += needed[n];
-        curve[n] = static_cast<double>(hits) / rays;
-    }
-    return curve;
+    std::ranges::sort(needed);
+    return needed;
 }
 
 } // namespace sward::texgen

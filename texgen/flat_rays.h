@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -20,15 +20,9 @@ struct FlatHit {
 
 /// What part of the far tier counts.
 struct FlatUse {
-    double shell_share = 1; ///< shells show a blade while 1 - seed < share
+    double shell_share = 1; ///< shells show a blade while 1 - seed < share; above 1 it scales their coverage
     double slice_share = 1; ///< scales the slices' |dx| and |dz|
 };
-
-/// Seeds are eight bits: so many shares of the shells differ.
-inline constexpr int kShareSteps = 256;
-
-/// Coverage by shell share: entry n at a share of n / kShareSteps. Rises.
-using ShareCurve = std::array<double, kShareSteps + 1>;
 
 /// The far tier as rays see it: shells and both slice families of one level at rest, as models of
 /// the renderer and for calibration. A slice across x shows a blade while seed < |dx|, one across z
@@ -44,10 +38,10 @@ public:
     [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction,
                                               std::uint64_t ray) const;
 
-    /// Least n at which the ray meets a texture with a shell share of n / kShareSteps;
-    /// kShareSteps + 1 if it meets none.
-    [[nodiscard]] int share_needed(glm::dvec3 origin, glm::dvec3 direction,
-                                   std::uint64_t ray) const;
+    /// Least shell share at which the ray meets a texture, 0 if it meets a slice; infinite if it meets nothing at
+    /// any share.
+    [[nodiscard]] double share_needed(glm::dvec3 origin, glm::dvec3 direction,
+                                      std::uint64_t ray) const;
 
 private:
     struct Ray {
@@ -56,7 +50,8 @@ private:
         std::uint64_t number;
     };
     [[nodiscard]] Ray ray_of(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t number) const;
-    /// Calls visit(hit, seed) for every covered texel of a shell from the top down, until true.
+    /// Calls visit(hit, share) for every texel of a shell that the ray meets at that shell share or more, from the
+    /// top down, until true.
     template<typename Visit> void walk_shells(const Ray& ray, const Visit& visit) const;
     void shells(const Ray& ray, std::optional<FlatHit>& best) const;
     void slices(const Ray& ray, int axis, std::optional<FlatHit>& best) const;
@@ -71,8 +66,9 @@ private:
 [[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level,
                                           double elevation_deg, FlatUse use, int rays);
 
-/// At the row's elevation and share of the slices.
-[[nodiscard]] ShareCurve share_curve(const grass::GrassSet& set, int level, const grass::FarRow& row,
-                                     int rays);
+/// share_needed of `rays` rays at the row's elevation and share of the slices, rising: the textures' coverage at a shell
+/// share is the part of the list that does not exceed it.
+[[nodiscard]] std::vector<float> shares_needed(const grass::GrassSet& set, int level,
+                                               const grass::FarRow& row, int rays);
 
 } // namespace sward::texgen

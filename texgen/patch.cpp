@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -40,10 +41,11 @@ private:
 };
 
 BladeRecord grow(const Preset& preset, const Sprout& sprout) {
+    const Species& species = preset.species[sprout.species];
     Draw draw(preset, sprout.id);
     const double out = std::hypot(sprout.out_x, sprout.out_z);
-    const double length = draw.about(preset.length_m);
-    const double droop = draw.in(preset.droop);
+    const double length = draw.about(species.length_m);
+    const double droop = draw.in(species.droop);
     double lean_share = draw.unit();
     double azimuth = draw.unit() * 2 * kPi;
     if (out > 0) { // upright in the tuft's middle, outward at its rim
@@ -51,11 +53,11 @@ BladeRecord grow(const Preset& preset, const Sprout& sprout) {
         lean_share = (lean_share + out) / 2;
     }
     const double lean =
-        std::lerp(preset.lean_deg.low, preset.lean_deg.high, lean_share) * kPi / 180;
-    const double weight = droop * kDroopDeg * length / preset.length_m.high;
-    const double bend = (draw.in(preset.curvature_deg) + weight) * kPi / 180;
+        std::lerp(species.lean_deg.low, species.lean_deg.high, lean_share) * kPi / 180;
+    const double weight = droop * kDroopDeg * length / species.length_m.high;
+    const double bend = (draw.in(species.curvature_deg) + weight) * kPi / 180;
     const RestCurve curve = rest_curve(length, lean, bend, azimuth);
-    const double width = draw.about(preset.width_m);
+    const double width = draw.about(species.width_m);
     const double facing = azimuth + kPi / 2 + draw.spread() * kFacingSpread;
     BladeRecord blade;
     // A root just below the side may round up to it in float; the torus puts it at 0.
@@ -65,10 +67,10 @@ BladeRecord grow(const Preset& preset, const Sprout& sprout) {
     };
     blade.root = {on_torus(sprout.x), on_torus(sprout.z), 0, 0};
     blade.v1 = shared::vec4(curve.v1, static_cast<float>(width / 2));
-    blade.v2 = shared::vec4(curve.v2, static_cast<float>(draw.in(preset.stiffness)));
+    blade.v2 = shared::vec4(curve.v2, static_cast<float>(draw.in(species.stiffness)));
     const double turn = facing - 2 * kPi * std::floor(facing / (2 * kPi));
     blade.shape = {static_cast<float>(turn), static_cast<float>(curve_length(curve.v1, curve.v2)),
-                   static_cast<float>(droop), 0};
+                   static_cast<float>(droop), static_cast<float>(sprout.species)};
     return blade;
 }
 
@@ -116,6 +118,15 @@ std::vector<BladeRecord> grow_variant(const Preset& preset, const Roots& roots, 
 }
 
 } // namespace
+
+std::vector<char> common_blades(const Patch& patch) {
+    std::vector<char> common(patch.variant(0).size(), 1);
+    for (int v = 1; v < patch.variants(); ++v)
+        for (std::size_t b = 0; b < common.size(); ++b)
+            if (std::memcmp(&patch.variant(0)[b], &patch.variant(v)[b], sizeof(BladeRecord)) != 0)
+                common[b] = 0;
+    return common;
+}
 
 RestCurve rest_curve(double length, double lean, double bend, double azimuth) {
     // Both legs equal and along the arc's end tangents: the parabola nearest to the arc.
@@ -165,6 +176,8 @@ Patch generate_patch(const Preset& preset, int threads) {
     });
     Patch patch;
     patch.side_m = preset.side_m;
+    for (const Species& species : preset.species)
+        patch.looks.push_back(appearance(species));
     patch.variant_begin.push_back(0);
     for (std::vector<BladeRecord>& blades : variants) {
         for (std::size_t p = 0; p < blades.size(); ++p) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/blade.h"
+#include "shared/grass_layout.h"
 #include "texgen/preset.h"
 
 namespace sward::texgen {
@@ -13,6 +14,7 @@ namespace sward::texgen {
 /// The blades of all variants. Root x, z in [0, side); toroidal in both.
 struct Patch {
     double side_m = 0;
+    std::vector<shared::GrassAppearance> looks; ///< of the species, by number
     std::vector<shared::BladeRecord> blades;  ///< variant-major; inside a variant by rising rank
     std::vector<std::uint32_t> variant_begin; ///< variants + 1
 
@@ -26,6 +28,9 @@ struct Patch {
 /// has the same number of blades, and every blade with its root within border_width() of an edge is
 /// the same, at the same index, in all. Depends on the preset alone, not on the number of threads.
 [[nodiscard]] Patch generate_patch(const Preset& preset, int threads);
+
+/// For every index of a variant's blades: the same blade stands there in all variants.
+[[nodiscard]] std::vector<char> common_blades(const Patch& patch);
 
 /// Rest pose of a blade: a quadratic Bezier near the circular arc that starts `lean` from the
 /// vertical and turns by `bend` (radians) towards `azimuth`, its curve exactly `length` long.
@@ -44,6 +49,7 @@ struct Sprout {
     double x = 0;
     double z = 0;
     std::uint64_t id = 0; ///< unique over the patch's border and each variant's interior
+    std::uint32_t species = 0;
     double out_x =
         0; ///< offset from the tuft's centre as a share of its radius; 0 for a single blade
     double out_z = 0;

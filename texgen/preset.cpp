@@ -2,9 +2,6 @@
 #include "texgen/preset.h"
 
 #include <algorithm>
-#include <bit>
-#include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -21,11 +18,6 @@ using base::ExitCode;
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxPresetBytes = 1 << 20;
-constexpr double kMaxBlades = 200000;      // a variant: the renderer's lists and the ranking's time
-constexpr double kMaxArrayBytes = 1 << 30; // robustness: one texture array
-constexpr double kMaxArrayLayers = 2048;
-constexpr double kMarginShare = 0.02; // of the side, on top of the reach
-constexpr double kMaxTipDeg = 150;    // a curve that rolls up would leave its own slab order
 
 int line_of(const toml::node& node) {
     return static_cast<int>(node.source().begin.line);
@@ -53,7 +45,15 @@ std::string shown(const toml::node& node) {
     return base::printable(text.str());
 }
 
-std::string nearest_key(std::string_view section, std::string_view key) {
+/// Where keys stand: the preset's top level, or one of its [[species]].
+enum class Scope { kPreset, kSpecies };
+
+/// A key of a species without a section names one species, and so belongs into its entry alone.
+bool stands_in(const Field& field, Scope scope) {
+    return scope == Scope::kSpecies ? field.of_species() : !field.of_species() || !field.section.empty();
+}
+
+std::string nearest_key(std::string_view section, std::string_view key, Scope scope) {
     std::string best;
     int least = 1 << 20;
     const std::string full =
@@ -61,7 +61,7 @@ std::string nearest_key(std::string_view section, std::string_view key) {
     for (const Field& field : preset_fields())
         for (const std::string_view name :
              {std::string_view(field.key), std::string_view(field.section)}) {
-            if (name.empty())
+            if (name.empty() || !stands_in(field, scope))
                 continue;
             const bool whole = name == field.key;
             const std::string candidate = whole ? field.full_key() : std::string(name);
@@ -75,6 +75,19 @@ std::string nearest_key(std::string_view section, std::string_view key) {
         }
     return best;
 }
+
+bool clean_name(const std::string& text) {
+    return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '-' || c == '_';
+    });
+}
+
+/// Where the values of a field go.
+struct Into {
+    Preset& preset;
+    Species& species;
+};
 
 /// Reads one node into its field.
 struct Reader {
@@ -102,54 +115,117 @@ struct Reader {
             values[i] = number((*items)[i]);
         return values;
     }
-    void into(Preset& preset) const {
-        if (const auto* text = std::get_if<std::string Preset::*>(&field.target)) {
-            const std::string value = node.is_string() ? node.value<std::string>().value() : "";
-            const bool clean = std::ranges::all_of(value, [](char c) {
-                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '-' || c == '_';
-            });
-            if (value.empty() || value.size() > 64 || !clean)
-                refuse();
-            preset.*(*text) = value;
-        } else if (const auto* whole = std::get_if<std::int64_t Preset::*>(&field.target)) {
-            if (!node.is_integer())
-                refuse();
-            preset.*(*whole) = static_cast<std::int64_t>(number(node));
-        } else if (const auto* real = std::get_if<double Preset::*>(&field.target)) {
-            preset.*(*real) = number(node);
-        } else if (const auto* range = std::get_if<Range Preset::*>(&field.target)) {
-            const auto [low, high] = numbers<2>();
-            if (low > high)
-                refuse();
-            preset.*(*range) = {low, high};
-        } else if (const auto* colour = std::get_if<Colour Preset::*>(&field.target)) {
-            preset.*(*colour) = numbers<3>();
-        }
+    std::string name() const {
+        const std::string value = node.is_string() ? node.value<std::string>().value() : "";
+        if (!clean_name(value))
+            refuse();
+        return value;
+    }
+    void put(const Into& into, std::string Preset::*target) const { into.preset.*target = name(); }
+    void put(const Into& into, std::int64_t Preset::*target) const {
+        if (!node.is_integer())
+            refuse();
+        into.preset.*target = static_cast<std::int64_t>(number(node));
+    }
+    void put(const Into& into, double Preset::*target) const { into.preset.*target = number(node); }
+    void put(const Into& into, std::string Species::*target) const { into.species.*target = name(); }
+    void put(const Into& into, double Species::*target) const { into.species.*target = number(node); }
+    void put(const Into& into, Range Species::*target) const {
+        const auto [low, high] = numbers<2>();
+        if (low > high)
+            refuse();
+        into.species.*target = {low, high};
+    }
+    void put(const Into& into, Colour Species::*target) const { into.species.*target = numbers<3>(); }
+    void read(const Into& into) const {
+        std::visit([&](const auto& target) { put(into, target); }, field.target);
     }
 };
 
-void read_entry(Preset& preset, const fs::path& file, std::string_view section,
-                const toml::key& key, const toml::node& node) {
-    for (const Field& field : preset_fields())
-        if (field.section == section && field.key == key.str()) {
-            Reader{file, field, node}.into(preset);
-            return;
+/// All of a preset's tables.
+class PresetReader {
+public:
+    explicit PresetReader(const fs::path& file) : file_(file) {}
+
+    Preset read(const toml::table& table) {
+        preset_.name = "unnamed";
+        const toml::array* kinds = nullptr;
+        for (const auto& [key, node] : table) {
+            if (key.str() == "species") {
+                kinds = node.as_array();
+                if (!kinds || kinds->empty() || kinds->size() > shared::kMaxSpecies || !kinds->is_array_of_tables())
+                    refuse(line_of(node), "species", kinds ? fmt::format("{} entries", kinds->size()) : shown(node),
+                           fmt::format("1 to {} [[species]] tables", shared::kMaxSpecies));
+                continue;
+            }
+            entry(Scope::kPreset, preset_.species.front(), key, node);
         }
-    throw base::input_error(ExitCode::kBadInput, file, static_cast<int>(key.source().begin.line),
-                            "unknown key", base::printable(key.str()),
-                            fmt::format("a key such as {}", nearest_key(section, key.str())));
-}
+        if (kinds)
+            species(*kinds);
+        return std::move(preset_);
+    }
 
-bool is_section(std::string_view name) {
-    return std::ranges::any_of(preset_fields(), [&](const Field& field) {
-        return !name.empty() && field.section == name;
-    });
-}
+private:
+    [[noreturn]] void refuse(int line, std::string_view what, const std::string& found,
+                             const std::string& expected) const {
+        throw base::input_error(ExitCode::kBadInput, file_, line, what, found, expected);
+    }
 
-double array_bytes(double width, double height, double images) {
-    return width * height * images * 4 * 4 / 3;
-}
+    /// The top level's species keys are every species' defaults; an element brings its own for the head.
+    void species(const toml::array& kinds) {
+        const Species common = preset_.species.front();
+        preset_.species.clear();
+        for (const toml::node& node : kinds) {
+            const toml::table& table = *node.as_table();
+            Species one = common;
+            one.name = fmt::format("species{}", preset_.species.size());
+            if (const toml::node* element = table.get("element"))
+                apply_element(one, *element);
+            for (const auto& [key, value] : table)
+                entry(Scope::kSpecies, one, key, value);
+            for (const Species& other : preset_.species)
+                if (other.name == one.name)
+                    refuse(line_of(node), "species.name", one.name + " a second time", "a name of its own");
+            preset_.species.push_back(one);
+        }
+    }
+
+    void apply_element(Species& one, const toml::node& node) const {
+        const std::string name = node.value<std::string>().value_or("");
+        for (const Element& element : elements())
+            if (element.name == name) {
+                one.taper = element.taper;
+                one.stalk = element.stalk;
+                one.head_from = element.head_from;
+                one.fullness = element.fullness;
+                return;
+            }
+        refuse(line_of(node), "species.element", shown(node), "blade, seed_head, leaf or flower");
+    }
+
+    /// A key, or a section of keys.
+    void entry(Scope scope, Species& one, const toml::key& key, const toml::node& node) {
+        const toml::table* section = node.as_table();
+        const bool known = std::ranges::any_of(preset_fields(), [&](const Field& field) {
+            return !field.section.empty() && field.section == key.str() && stands_in(field, scope);
+        });
+        if (!section || !known)
+            return value(scope, one, "", key, node);
+        for (const auto& [inner, item] : *section)
+            value(scope, one, key.str(), inner, item);
+    }
+
+    void value(Scope scope, Species& one, std::string_view section, const toml::key& key, const toml::node& node) {
+        for (const Field& field : preset_fields())
+            if (field.section == section && field.key == key.str() && stands_in(field, scope))
+                return Reader{file_, field, node}.read({preset_, one});
+        refuse(static_cast<int>(key.source().begin.line), "unknown key", base::printable(key.str()),
+               fmt::format("a key such as {}", nearest_key(section, key.str(), scope)));
+    }
+
+    const fs::path& file_;
+    Preset preset_;
+};
 
 } // namespace
 
@@ -162,17 +238,7 @@ Preset parse_preset(const std::string& text, const fs::path& name) {
             ExitCode::kBadInput, name, static_cast<int>(error.source().begin.line), "TOML",
             base::printable(error.description()), "a preset as in docs/texgen.md");
     }
-    Preset preset;
-    preset.name = "unnamed";
-    for (const auto& [key, node] : table) {
-        const toml::table* section = node.as_table();
-        if (!section || !is_section(key.str())) {
-            read_entry(preset, name, "", key, node);
-            continue;
-        }
-        for (const auto& [inner, value] : *section)
-            read_entry(preset, name, key.str(), inner, value);
-    }
+    Preset preset = PresetReader(name).read(table);
     check_preset(preset, name);
     return preset;
 }
@@ -192,53 +258,6 @@ void override_preset(Preset& preset, const std::string& option, const std::strin
                                                             value, field.expected()));
         preset.*std::get<std::int64_t Preset::*>(field.target) = value;
     }
-}
-
-void check_preset(const Preset& preset, const fs::path& origin) {
-    const auto refuse = [&](ExitCode code, std::string_view what, const std::string& found,
-                            const std::string& expected) {
-        throw base::input_error(code, origin, 0, what, found, expected);
-    };
-    if (!std::has_single_bit(static_cast<std::uint64_t>(preset.size)))
-        refuse(ExitCode::kBadInput, "texture.size", std::to_string(preset.size),
-               "a power of two from 32 to 2048");
-    if (preset.size >> (preset.levels - 1) < 16)
-        refuse(ExitCode::kBadInput, "texture.levels", std::to_string(preset.levels),
-               "at least 16 texels a side at the last level");
-    const double tip =
-        preset.lean_deg.high + preset.curvature_deg.high + preset.droop.high * kDroopDeg;
-    if (tip > kMaxTipDeg)
-        refuse(ExitCode::kBadInput, "blade.curvature_deg",
-               fmt::format("{} degrees at the tip", tip),
-               fmt::format("lean + curvature + droop x {} of at most {}", kDroopDeg, kMaxTipDeg));
-    const double blades = preset.density_per_m2 * preset.side_m * preset.side_m;
-    if (!(blades >= 1))
-        refuse(ExitCode::kBadInput, "patch.density_per_m2",
-               fmt::format("{:.3g} blades on the patch", blades), "at least 1");
-    if (blades > kMaxBlades)
-        refuse(ExitCode::kOverLimit, "patch.density_per_m2",
-               fmt::format("{:.0f} blades on the patch", blades),
-               fmt::format("at most {:.0f} (density x side squared)", kMaxBlades));
-    if (border_width(preset) > preset.side_m / 4)
-        refuse(
-            ExitCode::kBadInput, "patch.side_m", fmt::format("{} m", preset.side_m),
-            fmt::format("at least {:.2f} m: four times the reach of the longest blade and a margin",
-                        4 * reach_bound(preset) / (1 - 4 * kMarginShare)));
-    const double planes = static_cast<double>(preset.variants * shared::kPlanes);
-    const double size = static_cast<double>(preset.size);
-    const double layer_images = planes * static_cast<double>(preset.layers);
-    const double slice_images = planes * 2 * static_cast<double>(preset.slices);
-    const double rows = preset.length_m.high / preset.side_m * size + 4;
-    const double bytes =
-        std::max(array_bytes(size, size, layer_images), array_bytes(size, rows, slice_images));
-    if (bytes > kMaxArrayBytes)
-        refuse(ExitCode::kOverLimit, "texture",
-               fmt::format("an array of {:.0f} MiB", bytes / (1 << 20)),
-               "at most 1024 MiB: fewer texels, layers, slices or variants");
-    if (std::max(layer_images, slice_images) > kMaxArrayLayers)
-        refuse(ExitCode::kOverLimit, "texture",
-               fmt::format("{:.0f} images in an array", std::max(layer_images, slice_images)),
-               fmt::format("at most {:.0f}: fewer layers, slices or variants", kMaxArrayLayers));
 }
 
 fs::path find_preset(const std::string& argument, const std::vector<fs::path>& folders) {
@@ -261,42 +280,6 @@ fs::path find_preset(const std::string& argument, const std::vector<fs::path>& f
     throw base::input_error(ExitCode::kIo, argument, 0, "preset", "no such file",
                             "a path or a shipped preset: " +
                                 (known.empty() ? "none found" : known));
-}
-
-double reach_bound(const Preset& preset) {
-    // The longest blade, leaning and bending most, as a circular arc: chord L sin(b/2)/(b/2) at the
-    // mean angle.
-    constexpr double kRadians = std::numbers::pi / 180;
-    const double lean = preset.lean_deg.high * kRadians;
-    const double bend = (preset.curvature_deg.high + preset.droop.high * kDroopDeg) * kRadians;
-    double reach = 0;
-    for (int i = 1; i <= 64;
-         ++i) { // an arc that passes the horizontal comes back: its farthest point counts
-        const double s = i / 64.0;
-        const double b = bend * s;
-        const double chord =
-            preset.length_m.high * s * (b > 1e-6 ? std::sin(b / 2) / (b / 2) : 1.0);
-        reach = std::max(reach, chord * std::sin(std::min(lean + b / 2, std::numbers::pi / 2)));
-    }
-    return reach * 1.02 +
-           preset.width_m.high / 2; // 2 %: a Bezier of that length is a little straighter
-}
-
-double border_width(const Preset& preset) {
-    return reach_bound(preset) + kMarginShare * preset.side_m;
-}
-
-shared::GrassAppearance appearance(const Preset& preset) {
-    const auto pack = [](const Colour& c, double a) {
-        return shared::vec4(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                            static_cast<float>(c[2]), static_cast<float>(a));
-    };
-    shared::GrassAppearance look;
-    look.root = pack(preset.root, preset.dry_share);
-    look.tip = pack(preset.tip, preset.variation);
-    look.dry = pack(preset.dry, preset.translucency);
-    look.light = pack({preset.kd, preset.pd, preset.ks}, preset.ps);
-    return look;
 }
 
 } // namespace sward::texgen

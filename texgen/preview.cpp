@@ -9,6 +9,7 @@
 
 #include "assets/assets.h"
 #include "base/hash.h"
+#include "shared/shading.h"
 #include "texgen/parallel.h"
 #include "texgen/rays.h"
 
@@ -22,31 +23,33 @@ constexpr int kPanel = 400;
 const dvec3 kSun = glm::normalize(dvec3(0.5, 0.75, 0.35));
 const dvec3 kSoil(0.075, 0.055, 0.038);
 const dvec3 kSky(0.45, 0.60, 0.80);
-constexpr double kExposure = 3.2; // grass reflects a tenth: shown near the middle of the scale
+constexpr double kExposure = 1.6;
 
-/// A simple stand-in for the renderer's shading (G4): colour along the blade, dry blades,
-/// Kajiya-Kay, dark below.
+/// The renderer's own shading (G4), under a fixed sun, seen from above.
 class Shader {
 public:
-    explicit Shader(const grass::GrassSet& set) : look_(set.appearance) {}
+    explicit Shader(const grass::GrassSet& set) {
+        for (const grass::Species& species : set.species)
+            looks_.push_back(species.look);
+    }
 
-    dvec3 colour(double along, double seed, dvec3 tangent, double height) const {
-        const auto number = static_cast<std::uint64_t>(seed * 256);
-        const double pick = base::hash_unit(11, 1, number), shade = base::hash_unit(11, 2, number),
-                     hue = base::hash_unit(11, 3, number);
-        dvec3 c = glm::mix(dvec3(look_.root), dvec3(look_.tip), along);
-        const double variation = look_.tip.w;
-        c = glm::mix(c, dvec3(look_.dry), pick < look_.root.w ? 0.85 : 0.25 * variation * hue);
-        c *= 1 + variation * (shade - 0.5);
-        const double across = std::sqrt(std::max(0.0, 1 - std::pow(glm::dot(tangent, kSun), 2)));
-        const double open =
-            0.22 + 0.78 * std::clamp(height, 0.0, 1.0); // how much of the sky is seen
-        return c * open * (0.35 + look_.light.x * std::pow(across, look_.light.y));
+    /// `blade`: species, rank, seed, place along the blade.
+    struct Place {
+        std::size_t species;
+        double rank, seed, along;
+    };
+    dvec3 colour(const Place& at, dvec3 tangent, double height) const {
+        const shared::GrassAppearance& look = looks_[std::min(at.species, looks_.size() - 1)];
+        const shared::vec3 albedo = shared::blade_albedo(look, shared::vec2(at.rank, at.seed), static_cast<float>(at.along), 1);
+        const auto top = static_cast<float>(std::clamp(height, 0.0, 1.0));
+        return shared::shade_grass(look, light_, {albedo, shared::vec3(tangent), top, light_.to_sun.y}, {0, 1, 0});
     }
     static dvec3 ground() { return kSoil * 0.5; }
+    [[nodiscard]] std::span<const shared::GrassAppearance> looks() const { return looks_; }
 
 private:
-    shared::GrassAppearance look_;
+    std::vector<shared::GrassAppearance> looks_;
+    shared::Light light_{shared::vec4(shared::vec3(kSun), 0.55f), {3.4f, 3.2f, 2.8f, 0}, {0.2f, 0.4f, 0.8f, 1.1f}, {0.8f, 0.95f, 1.1f, 1}};
 };
 
 /// A picture of linear colour.
@@ -101,8 +104,9 @@ public:
             return {dvec3(0), 0};
         const shared::vec3 tangent =
             shared::decode_tangent(shared::vec2(shape_[t], shape_[t + 1]) / 255.0f);
-        return {shader.colour(id_[t + 3] / 255.0, (id_[t + 2] + 0.5) / 256, tangent, layer_height),
-                coverage};
+        const Shader::Place place{static_cast<std::size_t>(shared::decode_species(id_[t + 3])), (id_[t + 1] + 0.5) / 256,
+                                  (id_[t + 2] + 0.5) / 256, shared::decode_along(id_[t + 3])};
+        return {shader.colour(place, tangent, layer_height), coverage};
     }
 
     const int width, height;
@@ -127,7 +131,7 @@ Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
                 const auto [colour, coverage] =
-                    image.texel(shader, x, y, (i + 0.5) / far.layer_count);
+                    image.texel(shader, x, y, far.layer_heights[static_cast<std::size_t>(i)] / set.canopy_m);
                 double& open = clear[static_cast<std::size_t>(y * canvas.width + x)];
                 canvas.at(x, y) += colour * coverage * open;
                 open *= 1 - coverage;
@@ -197,8 +201,8 @@ Canvas mip_view(const grass::GrassSet& set, const Shader& shader, int mip) {
 Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads) {
     constexpr int kSide = 2; // samples
     Canvas canvas(kPanel * 3 / 2, kPanel, dvec3(0));
-    const BladeField field(std::span(set.blades).subspan(0, set.variant_begin[1]), set.side_m,
-                           set.canopy_m);
+    const BladeField field(std::span(set.blades).subspan(0, set.variant_begin[1]), shader.looks(),
+                           set.side_m, set.canopy_m);
     const double canopy = set.canopy_m;
     const dvec3 eye(0.3, canopy * 3.2, 0.2);
     const double pitch = -0.50, focal = 1.4;
@@ -223,7 +227,7 @@ Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads
                         const dvec3 tangent =
                             shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2),
                                                   static_cast<float>(hit->along));
-                        colour = shader.colour(hit->along, blade.root.w, tangent,
+                        colour = shader.colour({species_of(blade), blade.root.z, blade.root.w, hit->along}, tangent,
                                                hit->position.y / canopy);
                     }
                     canvas.at(x, static_cast<int>(row)) +=

@@ -69,7 +69,8 @@ const std::vector<Texel>& SlabRaster::draw(const Slab& slab, std::span<const Out
     const bool periodic = axis != 1;
     for (std::size_t b = 0; b < blades.size(); ++b) {
         const Outline& blade = blades[b];
-        for (int image = periodic ? -1 : 0; image <= (periodic ? 1 : 0); ++image) {
+        const int images = periodic && slab.wrap ? 1 : 0;
+        for (int image = -images; image <= images; ++image) {
             const double shift = image * slab.side;
             if (blade.high[axis] + shift < slab.low || blade.low[axis] + shift > slab.high)
                 continue;
@@ -103,10 +104,11 @@ void SlabRaster::segment(const Outline& blade, int i, double shift) {
                  from_v = blade.centre[i][axes.v] * scale_v;
     const double step = (blade.centre[i + 1][axes.v] * scale_v - from_v) * across_u -
                         (blade.centre[i + 1][axes.u] * scale_u - from_u) * across_v;
-    const double gain = std::abs(step) > 1e-9 ? 1.0 / (Outline::kSegments * step) : 0.0;
+    const double rise = blade.v[static_cast<std::size_t>(i) + 1] - blade.v[static_cast<std::size_t>(i)];
+    const double gain = std::abs(step) > 1e-9 ? rise / step : 0.0;
     piece.along_u = -across_v * gain;
     piece.along_v = across_u * gain;
-    piece.along0 = Outline::v_at(i) - piece.along_u * from_u - piece.along_v * from_v;
+    piece.along0 = blade.v[static_cast<std::size_t>(i)] - piece.along_u * from_u - piece.along_v * from_v;
     piece.clip(slab_.low, 1);
     piece.clip(slab_.high, -1);
     if (piece.count >= 3)
@@ -141,7 +143,11 @@ void SlabRaster::fill(const Piece& piece) {
 
 void SlabRaster::span(int row, int first, int last, const Piece& piece) {
     int texel_row = floor_div(row, kSamples);
-    if (slab_.family == Family::kLayer)
+    if (!slab_.wrap) { // cut at the patch's edge
+        first = std::max(first, 0);
+        last = std::min(last, slab_.width * kSamples);
+    }
+    if (slab_.family == Family::kLayer && slab_.wrap)
         texel_row = floor_mod(texel_row, slab_.height);
     else if (texel_row < 0 || texel_row >= slab_.height)
         return;

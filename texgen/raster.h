@@ -29,6 +29,7 @@ struct Slab {
     int width = 0, height = 0;       ///< texels
     double texel_u = 0, texel_v = 0; ///< metres
     double side = 0;                 ///< period of x and z
+    bool wrap = true;                ///< false: cut at the patch's edge (Preset::wrap)
 };
 
 /// What the blades show in one texel: the share of its area that any of them covers, and the blade

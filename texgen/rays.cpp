@@ -46,8 +46,9 @@ struct Walk {
 
 } // namespace
 
-BladeField::BladeField(std::span<const shared::BladeRecord> blades, double side, double canopy)
-    : side_(side), canopy_(canopy), cells_(kCells), outlines_(outlines_of(blades)),
+BladeField::BladeField(std::span<const shared::BladeRecord> blades,
+                       std::span<const shared::GrassAppearance> species, double side, double canopy)
+    : side_(side), canopy_(canopy), cells_(kCells), outlines_(outlines_of(blades, species)),
       grid_(kCells * kCells) {
     for (std::uint32_t b = 0; b < outlines_.size(); ++b)
         for (int i = 0; i < Outline::kSegments; ++i)
@@ -101,7 +102,7 @@ void BladeField::meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction,
     const double offset = w - a * ab;
     if (std::abs(offset) > o.half[i] + a * (o.half[i + 1] - o.half[i]))
         return;
-    best = RayHit{t, item.blade, (i + a) / Outline::kSegments, {}, normal / glm::length(normal)};
+    best = RayHit{t, item.blade, o.between(i, a), {}, normal / glm::length(normal)};
 }
 
 std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,

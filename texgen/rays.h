@@ -22,7 +22,8 @@ struct RayHit {
 /// Blades of one variant on the endless plane, for exact rays: the truth that textures are held to.
 class BladeField {
 public:
-    BladeField(std::span<const shared::BladeRecord> blades, double side, double canopy);
+    BladeField(std::span<const shared::BladeRecord> blades,
+               std::span<const shared::GrassAppearance> species, double side, double canopy);
 
     /// First blade that the ray meets above the ground, up to `limit` metres away. `direction` is a
     /// unit vector.

@@ -34,7 +34,19 @@ ordered_json look(const shared::GrassAppearance& a) {
             {"kd", decimal(a.light.x)},
             {"pd", decimal(a.light.y)},
             {"ks", decimal(a.light.z)},
-            {"ps", decimal(a.light.w)}};
+            {"ps", decimal(a.light.w)},
+            {"head", rgb(a.head)},
+            {"taper", decimal(a.outline.x)},
+            {"stalk", decimal(a.outline.y)},
+            {"head_from", decimal(a.outline.z)},
+            {"fullness", decimal(a.outline.w)}};
+}
+
+ordered_json decimals(const std::vector<float>& values) {
+    ordered_json list = ordered_json::array();
+    for (const float value : values)
+        list.push_back(decimal(value));
+    return list;
 }
 
 } // namespace
@@ -49,14 +61,20 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                          {"offset_range_m", decimal(set.offset_range_m)},
                          {"variants", set.variants},
                          {"density_per_m2", decimal(set.density_per_m2)},
-                         {"blades", set.blades.size()},
-                         {"appearance", look(set.appearance)}};
+                         {"blades", set.blades.size()}};
+    for (const grass::Species& species : set.species)
+        root["species"].push_back({{"name", species.name},
+                                   {"element", species.element},
+                                   {"share", decimal(species.share)},
+                                   {"look", look(species.look)}});
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
         root["levels"].push_back(
             {{"size", level.layers.width},
              {"texel_m", decimal(set.side_m / static_cast<float>(level.layers.width))},
              {"layer_count", level.layer_count},
+             {"layer_edges_m", decimals(level.layer_edges)},
+             {"layer_heights_m", decimals(level.layer_heights)},
              {"slice_count", level.slice_count},
              {"slice_rows", level.slices.height},
              {"layers", grass::layers_file(static_cast<int>(k))},

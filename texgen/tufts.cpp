@@ -14,7 +14,7 @@ namespace {
 
 // Streams of the counter-based random numbers; the variant's interior adds kVariantStep * (variant
 // + 1).
-enum Stream : std::uint64_t { kSingle = 1, kTuftCentre, kTuftSize, kTuftBlade, kVariantStep = 64 };
+enum Stream : std::uint64_t { kSingle = 1, kTuftCentre, kTuftSize, kTuftBlade, kVariantStep = 64, kSpecies = 90000 };
 
 struct Centre {
     double x, z;
@@ -30,24 +30,24 @@ double edge_distance(double x, double z, double side) {
 
 class Scatter {
 public:
-    explicit Scatter(const Preset& preset)
-        : preset_(preset), side_(preset.side_m), seed_(static_cast<std::uint64_t>(preset.seed)),
-          border_(border_width(preset)) {}
+    /// `first_id`: of this species' first root.
+    Scatter(const Preset& preset, std::size_t species, std::uint64_t first_id)
+        : preset_(preset), species_(preset.species[species]), number_(static_cast<std::uint32_t>(species)),
+          side_(preset.side_m),
+          seed_(base::hash64(static_cast<std::uint64_t>(preset.seed), kSpecies, species)),
+          border_(border_width(preset)), next_id_(first_id) {}
 
-    Roots run() {
-        const auto total =
-            static_cast<std::size_t>(std::llround(preset_.density_per_m2 * side_ * side_));
-        const double per_tuft = (preset_.tuft_blades.low + preset_.tuft_blades.high) / 2;
+    /// Appends `total` roots a variant. Returns the first id that is free.
+    std::uint64_t run(std::size_t total, Roots& roots) {
+        const double per_tuft = (species_.tuft_blades.low + species_.tuft_blades.high) / 2;
         tufted_ =
-            static_cast<std::size_t>(std::llround(static_cast<double>(total) * preset_.tuft_share));
+            static_cast<std::size_t>(std::llround(static_cast<double>(total) * species_.tuft_share));
         tufts_ = static_cast<std::size_t>(std::llround(static_cast<double>(tufted_) / per_tuft));
         if (tufts_ == 0)
             tufted_ = 0;
-        Roots roots;
-        roots.interior.resize(static_cast<std::size_t>(preset_.variants));
         single_blades(total - tufted_, roots);
         tuft_blades(roots);
-        return roots;
+        return next_id_;
     }
 
 private:
@@ -57,19 +57,20 @@ private:
     static std::uint64_t own(std::uint64_t variant) { return kVariantStep * (variant + 1); }
 
     void single_blades(std::size_t count, Roots& roots) {
+        const std::size_t others = roots.border.size();
         for (std::size_t i = 0; i < count; ++i) {
             const Sprout s{unit(kSingle, 2 * i) * side_, unit(kSingle, 2 * i + 1) * side_,
-                           next_id_++};
+                           next_id_++, number_};
             if (edge_distance(s.x, s.z, side_) < border_)
                 roots.border.push_back(s);
         }
-        const std::size_t inside = count - roots.border.size();
+        const std::size_t inside = count - (roots.border.size() - others);
         const double width = side_ - 2 * border_;
         for (std::size_t v = 0; v < roots.interior.size(); ++v)
             for (std::size_t i = 0; i < inside; ++i) {
                 const double x = border_ + unit(own(v) + kSingle, 2 * i) * width;
                 const double z = border_ + unit(own(v) + kSingle, 2 * i + 1) * width;
-                roots.interior[v].push_back({x, z, next_id_++});
+                roots.interior[v].push_back({x, z, next_id_++, number_});
             }
     }
 
@@ -77,7 +78,7 @@ private:
         if (tufts_ == 0)
             return;
         // A tuft whose blades may stand in the border belongs to the border as a whole.
-        const double rim = border_ + preset_.tuft_radius_m.high;
+        const double rim = border_ + species_.tuft_radius_m.high;
         std::vector<Centre> all;
         throw_darts(kTuftCentre, tufts_, 0, all);
         std::vector<Centre> shared_centres;
@@ -132,7 +133,7 @@ private:
         double sum = 0;
         for (std::size_t t = 0; t < centres.size(); ++t) {
             weight[t] =
-                std::lerp(preset_.tuft_blades.low, preset_.tuft_blades.high, unit(stream, 2 * t));
+                std::lerp(species_.tuft_blades.low, species_.tuft_blades.high, unit(stream, 2 * t));
             sum += weight[t];
         }
         double running = 0;
@@ -141,7 +142,7 @@ private:
             running += weight[t];
             const auto until =
                 static_cast<std::size_t>(std::llround(static_cast<double>(blades) * running / sum));
-            const double radius = std::lerp(preset_.tuft_radius_m.low, preset_.tuft_radius_m.high,
+            const double radius = std::lerp(species_.tuft_radius_m.low, species_.tuft_radius_m.high,
                                             unit(stream, 2 * t + 1));
             for (; grown < until; ++grown)
                 into.push_back(
@@ -167,22 +168,31 @@ private:
         s.x -= side_ * std::floor(s.x / side_);
         s.z -= side_ * std::floor(s.z / side_);
         s.id = next_id_++;
+        s.species = number_;
         return s;
     }
 
     const Preset& preset_;
+    const Species& species_;
+    std::uint32_t number_;
     double side_;
     std::uint64_t seed_;
     double border_;
     std::size_t tufted_ = 0;
     std::size_t tufts_ = 0;
-    std::uint64_t next_id_ = 0;
+    std::uint64_t next_id_;
 };
 
 } // namespace
 
 Roots scatter_roots(const Preset& preset) {
-    return Scatter(preset).run();
+    Roots roots;
+    roots.interior.resize(static_cast<std::size_t>(preset.variants));
+    const std::vector<std::size_t> counts = species_counts(preset);
+    std::uint64_t next_id = 0;
+    for (std::size_t s = 0; s < counts.size(); ++s)
+        next_id = Scatter(preset, s, next_id).run(counts[s], roots);
+    return roots;
 }
 
 } // namespace sward::texgen

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "texgen/writer.h"
 
-#include <chrono>
 #include <functional>
 
 #include <fmt/format.h>
@@ -13,33 +12,15 @@
 #include "grass/blades_glb.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
-#include "texgen/far_level.h"
-#include "texgen/far_table.h"
 #include "texgen/parallel.h"
 #include "texgen/preview.h"
+#include "texgen/step_timer.h"
 #include "texgen/volume.h"
 
 namespace sward::texgen {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Says at verbosity -v how long a step took.
-class StepTimer {
-public:
-    explicit StepTimer(std::string name)
-        : name_(std::move(name)), start_(std::chrono::steady_clock::now()) {}
-    ~StepTimer() {
-        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
-        base::log_debug(fmt::format("{}: {:.2f} s", name_, took.count()));
-    }
-    StepTimer(const StepTimer&) = delete;
-    StepTimer& operator=(const StepTimer&) = delete;
-
-private:
-    std::string name_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 /// A file of the set that some worker encodes.
 struct Part {
@@ -97,48 +78,6 @@ std::vector<FileEntry> write_files(const grass::GrassSet& set, const fs::path& f
 }
 
 } // namespace
-
-grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
-    Patch patch;
-    {
-        const StepTimer timer("patch");
-        patch = generate_patch(preset, options.threads);
-    }
-    grass::GrassSet set;
-    set.name = preset.name;
-    set.seed = static_cast<std::uint64_t>(preset.seed);
-    set.side_m = static_cast<float>(preset.side_m);
-    set.variants = patch.variants();
-    set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
-                                            (preset.side_m * preset.side_m));
-    set.appearance = appearance(preset);
-    // The numbers a reader gets are floats; the textures are drawn for those, not for their
-    // doubles.
-    set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
-    set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
-    std::size_t images = 0;
-    for (int k = 0; k < preset.levels; ++k)
-        images += level_images(preset, k);
-    {
-        const StepTimer timer("layers and slices");
-        base::Progress progress("layers and slices", images);
-        const BakeFrame frame{preset,          patch,    set.canopy_m, set.offset_range_m,
-                              options.threads, &progress};
-        for (int k = 0; k < preset.levels; ++k)
-            set.levels.push_back(bake_level(frame, k));
-    }
-    {
-        const StepTimer timer("far table");
-        set.far = far_table(patch, set.canopy_m, options.threads);
-    }
-    {
-        const StepTimer timer("shares of the shells");
-        calibrate_shells(set, options.threads);
-    }
-    set.blades = std::move(patch.blades);
-    set.variant_begin = std::move(patch.variant_begin);
-    return set;
-}
 
 void require_set_place(const fs::path& directory) {
     std::error_code error;

@@ -7,7 +7,7 @@ in vec3 tangent;
 in vec3 normal;
 in vec2 along;
 flat in vec4 own;
-flat in float tint;
+flat in vec2 sort; // tint of the ground, species
 in vec4 haze;
 
 void main() {
@@ -17,5 +17,5 @@ void main() {
     }
     // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.
     vec2 inside = clamp(along, 0.0, 1.0);
-    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, tint, kTierGroupedBlade, haze));
+    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, sort.x, kTierGroupedBlade, int(sort.y), haze));
 }

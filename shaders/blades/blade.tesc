@@ -29,7 +29,9 @@ void main() {
 
     float pixels = frame.eye.w / max(distance(blade_in[0].root.xyz, frame.eye.xyz), 0.05);
     float span = length(blade_in[0].v1.xyz) + length(blade_in[0].v2.xyz - blade_in[0].v1.xyz);
-    float along = clamp(ceil(span * pixels / frame.pose_band.z), 2.0, 12.0);
+    // A head has a curved rim of its own.
+    float least = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0 ? 8.0 : 2.0;
+    float along = clamp(ceil(span * pixels / frame.pose_band.z), least, 12.0);
     // The fold needs a middle; below a few pixels of width nobody sees it.
     float across = 2.0 * blade_in[0].v1.w * pixels > 3.0 ? 2.0 : 1.0;
     gl_TessLevelOuter[0] = along;

@@ -18,12 +18,13 @@ out vec3 tangent;
 out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
-flat out float tint;
+flat out vec2 sort;    // tint of the ground, species
 out vec4 haze;
 
 void main() {
     float u = gl_TessCoord.x;
-    float v = gl_TessCoord.y;
+    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    float v = blade_station(gl_TessCoord.y, outline);
     vec3 v1 = blade_in[0].v1.xyz;
     vec3 v2 = blade_in[0].v2.xyz;
     float half_width = blade_in[0].v1.w;
@@ -33,14 +34,14 @@ void main() {
     vec3 n = normalize(cross(t0, t1));
     float pixels = 2.0 * half_width * frame.eye.w / max(distance(centre, frame.eye.xyz), 0.05);
     float phi = 1.0 - clamp((pixels - frame.handover.z) / frame.handover.w, 0.0, 1.0);
-    float t = mix(blade_outline(u, v), u, phi * phi);
+    float t = mix(blade_outline(u, v, outline), u, phi * phi);
     world = centre + t1 * (half_width * (2.0 * t - 1.0));
     world += n * (half_width * (0.5 - abs(u - 0.5)) * (1.0 - v));
     tangent = t0;
     normal = n;
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
-    tint = blade_in[0].ground.y;
+    sort = blade_in[0].ground.yz;
     haze = haze_of(frame.light, world - frame.eye.xyz);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -11,7 +11,7 @@ out BladeVertex {
     vec4 v1;    // relative to the root; w: half width
     vec4 v2;    // relative to the root; w: facing
     vec4 rest;  // rest heights of v1 and v2 over the canopy's; rank; seed
-    vec4 ground; // cosine ground to sun; tint
+    vec4 ground; // cosine ground to sun; tint; species
 } blade_out;
 
 void main() {
@@ -29,6 +29,6 @@ void main() {
     blade_out.v1 = vec4(v1, blade.v1.w);
     blade_out.v2 = vec4(v2, blade.shape.x);
     blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, 0.0, 0.0);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, 0.0);
     gl_Position = vec4(0.0);
 }

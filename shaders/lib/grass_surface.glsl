@@ -14,6 +14,7 @@ struct GrassSample {
     float slope;  // cosine between ground and sun
     float tint;
     float tier;
+    int species;
     vec4 haze;
 };
 
@@ -21,8 +22,8 @@ void write_grass(GrassSample s) {
     vec3 from_eye = s.world - frame.eye.xyz;
     float distance_m = length(from_eye);
     vec3 to_eye = -from_eye / distance_m;
-    vec3 albedo = blade_albedo(frame.look, vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
+    vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
     GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
-    vec3 radiance = shade_grass(frame.look, frame.light, point, to_eye) * s.haze.a + s.haze.rgb;
+    vec3 radiance = shade_grass(frame.looks[s.species], frame.light, point, to_eye) * s.haze.a + s.haze.rgb;
     write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
 }

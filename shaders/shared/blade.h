@@ -13,7 +13,7 @@ struct BladeRecord {
     vec4 root;  // x, z within the patch [0, side); rank; seed
     vec4 v1;    // middle control point relative to the root; w: half width at the root
     vec4 v2;    // tip relative to the root; w: stiffness, 0 limp .. 1 stiff
-    vec4 shape; // facing azimuth: width direction is (cos, 0, sin); curve length; droop; unused
+    vec4 shape; // facing azimuth: width direction is (cos, 0, sin); curve length; droop; number of the species
 };
 #ifdef __cplusplus
 static_assert(sizeof(BladeRecord) == 64);
@@ -42,10 +42,25 @@ SHARED_FN vec3 blade_width_direction(float facing) {
     return vec3(cos(facing), 0.0f, sin(facing));
 }
 
-// Quadratic outline (J8): where u in [0, 1] across the blade lands between its left (0) and right (1) rim at v.
-// Written about the middle, u' = 1/2 + (u - 1/2)(1 - v^2): the printed u - u v^2 has the same width but pins the left rim.
-SHARED_FN float blade_outline(float u, float v) {
-    return 0.5f + (u - 0.5f) * (1.0f - v * v);
+// Half width at v over the greatest half width. A blade tapers as 1 - v^p (J8: p = 2 is the quadratic one, 1 the triangle). Seed heads,
+// flowers and leaves are the same strip with a head on a thin stalk: (4 t (1 - t))^q over it, q = 1/2 an ellipse, 1 a spindle.
+// `outline`: GrassAppearance::outline.
+SHARED_FN float blade_width_at(float v, vec4 outline) {
+    float stalk = outline.y * (1.0f - pow(v, outline.x));
+    float t = clamp((v - outline.z) / max(1.0f - outline.z, 1e-3f), 0.0f, 1.0f);
+    return max(stalk, outline.z < 1.0f ? pow(4.0f * t * (1.0f - t), outline.w) : 0.0f);
+}
+
+// Where u in [0, 1] across the blade lands between its left (0) and right (1) rim at v. Written about the middle: the printed u - u v^2
+// has the same width but pins the left rim.
+SHARED_FN float blade_outline(float u, float v, vec4 outline) {
+    return 0.5f + (u - 0.5f) * blade_width_at(v, outline);
+}
+
+// v of the mesh's station t in [0, 1]: half of the stations stand on the head, where there is one.
+SHARED_FN float blade_station(float t, vec4 outline) {
+    float head = outline.z;
+    return head >= 1.0f ? t : t < 0.5f ? 2.0f * t * head : head + (2.0f * t - 1.0f) * (1.0f - head);
 }
 
 // 8-bit number of a rank or seed, and back: exact on both sides.

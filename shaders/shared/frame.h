@@ -32,13 +32,13 @@ struct FrameConstants {
     vec4 slice_share[kShareSteps + 1]; // x: share of the slices likewise
     ivec4 clip_layout;             // levels of the clipmap; unused
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
-    GrassAppearance look;
+    GrassAppearance looks[kMaxSpecies];
     Light light;
     WindField wind;
     vec4 ground_colours[2]; // soil, bare rock; a: unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 64 + 64 + 112 + 32);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where things lie in a grass set's texture arrays, and how a texel is coded. Two RGBA8 planes an image:
 //   plane 0 "id":    R share 0..1 of the texel covered by any blade of the slab; of the one that covers most of it:
-//                    G rank, B seed, A place along the blade v (0 root .. 1 tip)
+//                    G rank, B seed, A species and place along the blade v (0 root .. 1 tip): 3 + 5 bits
 //   plane 1 "shape": RG tangent x, z as t * 0.5 + 0.5 (its y is >= 0), BA offset from the texel's centre (on the layer's or
 //                    slice's own plane) to the blade's root in x, z: o / offset_range * 0.5 + 0.5
 // Images are sampled nearest: a texel belongs to one blade. In layers u runs along +x and v along +z; in x-slices (planes
@@ -37,15 +37,31 @@ SHARED_FN vec2 decode_offset(vec2 ba, float offset_range) {
     return (ba * 2.0f - 1.0f) * offset_range;
 }
 
-// How a species looks to the shading function, in linear reflectance. 64 bytes.
+SHARED_CONST int kMaxSpecies = 8; // of a set: three bits of a texel
+SHARED_CONST int kAlongSteps = 32;
+
+// Byte of a texel's A for a species and a place along the blade, and back.
+SHARED_FN int encode_place(int species, float along) {
+    return species * kAlongSteps + clamp(int(along * float(kAlongSteps)), 0, kAlongSteps - 1);
+}
+SHARED_FN int decode_species(int code) {
+    return code / kAlongSteps;
+}
+SHARED_FN float decode_along(int code) {
+    return (float(code % kAlongSteps) + 0.5f) / float(kAlongSteps);
+}
+
+// How a species looks to the shading function (linear reflectance), and the outline of its blades. 96 bytes.
 struct GrassAppearance {
     vec4 root; // rgb at the root; a: share of dry blades 0..1
     vec4 tip;  // rgb at the tip; a: variation of hue and value between blades 0..1
     vec4 dry;  // rgb of a dry blade; a: translucency 0..1
     vec4 light; // kd, pd (diffuse weight, power), ks, ps (specular weight, power) of G4
+    vec4 head; // rgb of the head: seeds, petals, the blade of a leaf; a: unused
+    vec4 outline; // power of the taper; width of the stalk over the head's; v where the head begins, 1: none; its fullness
 };
 #ifdef __cplusplus
-static_assert(sizeof(GrassAppearance) == 64);
+static_assert(sizeof(GrassAppearance) == 96);
 #endif
 
 SHARED_END

@@ -33,7 +33,11 @@ SHARED_FN vec3 blade_albedo(GrassAppearance look, vec2 rank_seed, float v, float
     float own_dry = dryness < dry_share ? 0.85f : dryness > 1.0f - 0.4f * (1.0f - dry_share) ? tip : 0.0f;
     float mean_dry = 0.85f * dry_share + 0.4f * (1.0f - dry_share) * tip;
     vec3 colour = mix(vec3(look.root), vec3(look.tip), v) * (1.0f + look.tip.w * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
-    return max(mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), mix(mean_dry, own_dry, detail)), vec3(0.0f, 0.0f, 0.0f));
+    colour = mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), mix(mean_dry, own_dry, detail));
+    if (v > look.outline.z) { // heads neither dry nor yellow
+        colour = vec3(look.head) * (1.0f + look.tip.w * 0.7f * value);
+    }
+    return max(colour, vec3(0.0f, 0.0f, 0.0f));
 }
 
 // How much of a blade's own colour a pixel can show, by the blade's width in pixels.

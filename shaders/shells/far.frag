@@ -78,6 +78,7 @@ void main() {
     FarTexel texel = find_texel();
     vec4 id = textureLod(far_images, texel.uv, texel.mip);
     vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
+    int code = int(id.a * 255.0 + 0.5);
     vec2 offset = decode_offset(shape.ba, frame.grass.x);
     vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope.xy, offset), rest.z + offset.y);
     float rank = unorm8_to_unit(id.g);
@@ -92,7 +93,7 @@ void main() {
     // Each sample shows the texel or not, with its coverage as the chance: a hash of the texel, so that it stays put.
     uint h = hash_ivec2(texel.cell, uint(texel.uv.z));
     vec4 chances = (vec4(h & 255u, (h >> 8u) & 255u, (h >> 16u) & 255u, h >> 24u) + 0.5) / 256.0;
-    float coverage = id.r * flattening(tangent, flattened, normalize(frame.eye.xyz - world));
+    float coverage = id.r * max(ground_slope.z, 1.0) * flattening(tangent, flattened, normalize(frame.eye.xyz - world));
     bvec4 shown = greaterThan(vec4(coverage), chances);
     gl_SampleMask[0] = (shown.x ? 1 : 0) | (shown.y ? 2 : 0) | (shown.z ? 4 : 0) | (shown.w ? 8 : 0);
     if (!any(shown) || !own_blade(rank, seed, root, texel.dither)) {
@@ -104,5 +105,5 @@ void main() {
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, id.a, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, haze));
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, decode_along(code), clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), haze));
 }

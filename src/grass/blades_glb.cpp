@@ -38,7 +38,7 @@ float tip_height(const BladeRecord& b) {
 }
 
 // The full width is exactly twice the half width in binary, so that the round trip is exact.
-const std::array<Attribute, 11> kAttributes = {{
+const std::array<Attribute, 12> kAttributes = {{
     {"POSITION", 3,
      [](const BladeRecord& b, float* f) { f[0] = b.root.x, f[1] = 0, f[2] = b.root.y; },
      [](BladeRecord& b, const float* f) { b.root.x = f[0], b.root.y = f[2]; }},
@@ -54,6 +54,8 @@ const std::array<Attribute, 11> kAttributes = {{
      [](BladeRecord& b, const float* f) { b.root.z = *f; }},
     {"_SEED", 1, [](const BladeRecord& b, float* f) { *f = b.root.w; },
      [](BladeRecord& b, const float* f) { b.root.w = *f; }},
+    {"_SPECIES", 1, [](const BladeRecord& b, float* f) { *f = b.shape.w; },
+     [](BladeRecord& b, const float* f) { b.shape.w = *f; }},
     {"_STIFFNESS", 1, [](const BladeRecord& b, float* f) { *f = b.v2.w; },
      [](BladeRecord& b, const float* f) { b.v2.w = *f; }},
     {"_V1", 3, [](const BladeRecord& b, float* f) { f[0] = b.v1.x, f[1] = b.v1.y, f[2] = b.v1.z; },

@@ -19,7 +19,7 @@ struct BladeList {
 
 /// One mesh of POINTS a variant: POSITION is the root (y 0); application attributes, floats in
 /// metres and radians: _HEIGHT (of the tip), _WIDTH (full, at the root), _LENGTH (of the curve),
-/// _RANK, _SEED, _V1, _V2 (relative to the root), _STIFFNESS, _FACING, _DROOP. Nodes stand side by
+/// _RANK, _SEED, _V1, _V2 (relative to the root), _STIFFNESS, _FACING, _DROOP, _SPECIES (number). Nodes stand side by
 /// side along x.
 [[nodiscard]] std::vector<std::byte> encode_blades(std::span<const shared::BladeRecord> blades,
                                                    std::span<const std::uint32_t> variant_begin,

@@ -30,7 +30,9 @@ struct TextureArray {
 /// One level of the far tier: level k has texels 2^k as wide as level 0's and about half the layers and slices of level
 /// k - 1, each image showing the blades of its whole (thicker) slab. Indices: shaders/shared/grass_layout.h.
 struct FarLevel {
-    int layer_count = 0;           ///< shells; layer i is the slab [i, i + 1] * canopy / layer_count, drawn at its middle
+    int layer_count = 0;           ///< shells; layer i is the slab layer_edges[i] .. layer_edges[i + 1]
+    std::vector<float> layer_edges;   ///< metres above the ground, rising from 0 to the canopy's top; layer_count + 1
+    std::vector<float> layer_heights; ///< where each is drawn, within its slab; layer_count
     int slice_count = 0;           ///< per axis and patch side; slice i is the slab [i, i + 1] * side / slice_count
     TextureArray layers;           ///< variants * layer_count * 2 planes, (size >> k) square
     TextureArray slices;           ///< variants * 2 axes * slice_count * 2 planes, (size >> k) x rows
@@ -45,7 +47,8 @@ struct FarRow {
     float along = 0;       ///< mean place along the blade of the hits, 0 root .. 1 tip
     /// Share of the shells' blades shown at this view elevation, so that shells and slices of level 0 together cover what
     /// the blades cover: a shell shows a blade while 1 - seed < shell_share (the slices use the other end of the seeds
-    /// first). Linear in elevation between rows.
+    /// first). Linear in elevation between rows. Above 1, up to kMaxShellShare: all of them, and their texels' coverage times
+    /// so much, where thick slabs have lost what the blades' sides cover.
     float shell_share = 1;
     /// Share of the slices' |dx| and |dz| at this elevation: from above they show as rows, and the shells suffice.
     float slice_share = 1;
@@ -54,6 +57,16 @@ struct FarRow {
     [[nodiscard]] float share_at(int level) const {
         return level == 0 ? shell_share : coarse_shares[static_cast<std::size_t>(level - 1)];
     }
+};
+
+inline constexpr double kMaxShellShare = 8;
+
+/// One of the set's kinds of blades.
+struct Species {
+    std::string name;
+    std::string element;    ///< blade, seed_head, leaf, flower: what `look.outline` draws
+    float share = 1;        ///< of the set's blades; all add up to 1
+    shared::GrassAppearance look{};
 };
 
 /// A grass set in memory: what texgen writes and the renderer reads (docs/texgen.md).
@@ -69,7 +82,7 @@ struct GrassSet {
     std::vector<std::uint32_t> variant_begin;   ///< variants + 1 offsets into blades
     std::vector<FarLevel> levels;               ///< at least 1
     std::vector<FarRow> far;                    ///< falling elevation
-    shared::GrassAppearance appearance{};
+    std::vector<Species> species;               ///< 1 to shared::kMaxSpecies; a blade's shape.w and a texel's A name one
 };
 
 /// Reads a set's directory. Every file's SHA-256 is checked against set.json before it is parsed (volume.vdb is not read).

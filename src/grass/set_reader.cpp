@@ -131,6 +131,19 @@ std::vector<std::byte> verified_file(const SetJson& set, const fs::path& directo
     return bytes;
 }
 
+shared::GrassAppearance read_look(const SetJson& set, const json& look) {
+    shared::GrassAppearance out;
+    out.root = set.colour(look, "root", set.real(look, "dry_share", 0, 1));
+    out.tip = set.colour(look, "tip", set.real(look, "variation", 0, 1));
+    out.dry = set.colour(look, "dry", set.real(look, "translucency", 0, 1));
+    out.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000),
+                 set.real(look, "ks", 0, 1000), set.real(look, "ps", 0, 10000)};
+    out.head = set.colour(look, "head", 0);
+    out.outline = {set.real(look, "taper", 0.1, 100), set.real(look, "stalk", 0, 1),
+                   set.real(look, "head_from", 0, 1), set.real(look, "fullness", 0.01, 100)};
+    return out;
+}
+
 void read_head(const SetJson& set, GrassSet& out) {
     const json& root = set.root();
     const int version = set.whole(root, "version", 0, 1 << 20);
@@ -147,12 +160,25 @@ void read_head(const SetJson& set, GrassSet& out) {
     out.offset_range_m = set.real(root, "offset_range_m", 0.0001, 1000);
     out.variants = set.whole(root, "variants", 1, kMaxVariants);
     out.density_per_m2 = set.real(root, "density_per_m2", 0, 1e6);
-    const json& look = set.at(root, "appearance");
-    out.appearance.root = set.colour(look, "root", set.real(look, "dry_share", 0, 1));
-    out.appearance.tip = set.colour(look, "tip", set.real(look, "variation", 0, 1));
-    out.appearance.dry = set.colour(look, "dry", set.real(look, "translucency", 0, 1));
-    out.appearance.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000),
-                            set.real(look, "ks", 0, 1000), set.real(look, "ps", 0, 10000)};
+    for (const json& entry : set.array(root, "species", 1, shared::kMaxSpecies)) {
+        Species species;
+        species.name = set.text(entry, "name");
+        species.element = set.text(entry, "element");
+        species.share = set.real(entry, "share", 0, 1);
+        species.look = read_look(set, set.at(entry, "look"));
+        out.species.push_back(std::move(species));
+    }
+}
+
+/// Metres above the ground, rising, within the canopy.
+std::vector<float> read_heights(const SetJson& set, const json& level, const char* key, std::size_t count, float canopy) {
+    std::vector<float> heights;
+    for (const json& value : set.array(level, key, count, count)) {
+        heights.push_back(static_cast<float>(set.in_range(value, key, 0, canopy * 1.0001)));
+        if (heights.size() > 1 && heights.back() <= heights[heights.size() - 2])
+            set.refuse(key, fmt::format("{} after {}", heights.back(), heights[heights.size() - 2]), "rising heights");
+    }
+    return heights;
 }
 
 void read_far(const SetJson& set, GrassSet& out) {
@@ -167,7 +193,7 @@ void read_far(const SetJson& set, GrassSet& out) {
         far.slice_share = set.real(row, "slice_share", 0, 1);
         std::vector<float> shares;
         for (const json& share : set.array(row, "shell_share", levels, levels))
-            shares.push_back(static_cast<float>(set.in_range(share, "shell_share", 0, 1)));
+            shares.push_back(static_cast<float>(set.in_range(share, "shell_share", 0, kMaxShellShare)));
         far.shell_share = shares[0];
         far.coarse_shares.assign(shares.begin() + 1, shares.end());
         if (far.elevation_deg >= last)
@@ -195,6 +221,10 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
         FarLevel level;
         level.layer_count = set.whole(entry, "layer_count", 1, kMaxImages);
         level.slice_count = set.whole(entry, "slice_count", 1, kMaxImages);
+        level.layer_edges = read_heights(set, entry, "layer_edges_m",
+                                         static_cast<std::size_t>(level.layer_count) + 1, out.canopy_m);
+        level.layer_heights = read_heights(set, entry, "layer_heights_m",
+                                           static_cast<std::size_t>(level.layer_count), out.canopy_m);
         // Names are ours, not the file's: nothing outside the directory can be asked for.
         level.layers = read_array(set, directory, layers_file(k),
                                   out.variants * level.layer_count * shared::kPlanes);
@@ -232,6 +262,11 @@ GrassSet read_grass_set(const fs::path& directory) {
                    fmt::format("{} as in {}", list.variant_begin.size() - 1, kBladesFile));
     out.blades = std::move(list.blades);
     out.variant_begin = std::move(list.variant_begin);
+    for (const shared::BladeRecord& blade : out.blades)
+        if (!(blade.shape.w >= 0 && blade.shape.w < static_cast<float>(out.species.size())) ||
+            blade.shape.w != std::floor(blade.shape.w))
+            set.refuse("species", fmt::format("a blade of number {}", blade.shape.w),
+                       fmt::format("a whole number below {}", out.species.size()));
     read_levels(set, directory, out);
     return out;
 }

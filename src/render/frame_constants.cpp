@@ -104,7 +104,9 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
         out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
     }
     clipmap.describe(out, anchor);
-    out.look = set.appearance;
+    for (std::size_t i = 0; i < set.species.size(); ++i) {
+        out.looks[i] = set.species[i].look;
+    }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, view.time_s);
     out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter

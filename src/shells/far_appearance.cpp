@@ -19,6 +19,7 @@ constexpr int kBlades = 96;   // of the set that stand for all; each costs kPlac
 constexpr int kPlaces = 5;    // along a blade
 
 struct Part {
+    std::size_t species;
     shared::vec3 albedo, tangent;
     float height;
     float area; // relative
@@ -31,14 +32,16 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const glm::vec4& wind) {
     for (int n = 0; n < kBlades; ++n) {
         const shared::BladeRecord& blade = set.blades[count * static_cast<std::size_t>(n) / kBlades];
         const glm::vec3 v1(blade.v1), v2(blade.v2);
+        const auto species = static_cast<std::size_t>(blade.shape.w);
+        const shared::GrassAppearance& look = set.species[species].look;
         for (int i = 0; i < kPlaces; ++i) {
-            const float v = (static_cast<float>(i) + 0.5f) / kPlaces;
+            const float v = shared::blade_station((static_cast<float>(i) + 0.5f) / kPlaces, look.outline);
             const float y = std::clamp(shared::blade_curve(v1, v2, v).y, 0.0f, set.canopy_m);
             const glm::vec3 upright = shared::blade_tangent(v1, v2, v);
             const glm::vec3 turn = shared::bend_turn(y, set.canopy_m, {wind.x, wind.y}, wind.w);
-            parts.push_back({shared::blade_albedo(set.appearance, {blade.root.z, blade.root.w}, v, 0),
+            parts.push_back({species, shared::blade_albedo(look, {blade.root.z, blade.root.w}, v, 0),
                              glm::normalize(glm::vec3(upright.x, 0, upright.z) + upright.y * turn), y / set.canopy_m,
-                             blade.v1.w * (1 - v * v) * blade.shape.y});
+                             blade.v1.w * shared::blade_width_at(v, look.outline) * blade.shape.y});
         }
     }
     return parts;
@@ -77,7 +80,7 @@ glm::vec4 radiance(const std::vector<Part>& parts, const grass::GrassSet& set, c
     float weight = 1e-12f;
     for (const Part& part : parts) {
         const float w = visible(part, extinction, to_eye);
-        sum += w * shared::shade_grass(set.appearance, light, {part.albedo, part.tangent, part.height, light.to_sun.y}, to_eye);
+        sum += w * shared::shade_grass(set.species[part.species].look, light, {part.albedo, part.tangent, part.height, light.to_sun.y}, to_eye);
         weight += w;
     }
     return {sum / weight, row.x};

@@ -116,7 +116,7 @@ void add_shells(std::vector<shared::FarInstance>& out, const Place& at, const gr
         return;
     }
     for (int i = count - 1; i >= 0; --i) {
-        const float y = (static_cast<float>(i) + 0.5f) / static_cast<float>(count) * set.canopy_m;
+        const float y = set.levels[static_cast<std::size_t>(at.level)].layer_heights[static_cast<std::size_t>(i)];
         out.push_back({{y, at.index, x.packed(), z.packed()},
                        {shared::layer_index(0, i, count, shared::kPlaneId), count * shared::kPlanes, 0, at.level}});
     }

@@ -241,7 +241,7 @@ vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade
     const float pixels =
         2 * blade.v1.w * frame.eye.w / std::max(glm::distance(centre, vec3(frame.eye)), 0.05f);
     const float thin = 1 - glm::clamp((pixels - frame.handover.z) / frame.handover.w, 0.0f, 1.0f);
-    const float t = glm::mix(shared::blade_outline(uv.x, uv.y), uv.x, thin * thin);
+    const float t = glm::mix(shared::blade_outline(uv.x, uv.y, frame.looks[0].outline), uv.x, thin * thin);
     return centre + across * (blade.v1.w * (2 * t - 1)) +
            normal * (blade.v1.w * (0.5f - std::abs(uv.x - 0.5f)) * (1 - uv.y));
 }

@@ -149,7 +149,7 @@ struct SmallWorld {
         frame.handover = {4, 9, 0.1f, 0.35f};
         frame.pose_band = {4, 9, 12, 0.006f};
         clipmap.describe(frame, flat);
-        frame.look = set.appearance;
+        frame.looks[0] = set.species.front().look;
         frame.light = daylight(glm::normalize(glm::vec3(0.4f, 0.7f, 0.3f)));
         frame.wind = wind.field(flat, kTime_s);
         upload();

@@ -194,7 +194,7 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.far_bands[0]"), offsetof(FrameConstants, far_bands));
     EXPECT_EQ(offset_of("frame.clip_layout"), offsetof(FrameConstants, clip_layout));
     EXPECT_EQ(offset_of("frame.clip[0]"), offsetof(FrameConstants, clip));
-    EXPECT_EQ(offset_of("frame.look.light"), offsetof(FrameConstants, look.light));
+    EXPECT_EQ(offset_of("frame.looks[0].light"), offsetof(FrameConstants, looks[0].light));
     EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
     EXPECT_EQ(offset_of("frame.wind.waves[0]"), offsetof(FrameConstants, wind.waves));
     EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));

@@ -19,7 +19,9 @@ inline shared::GrassAppearance grass_look() {
     return {{0.05f, 0.09f, 0.02f, 0.07f},
             {0.08f, 0.15f, 0.03f, 0.45f},
             {0.21f, 0.17f, 0.08f, 0.45f},
-            {1.0f, 1.0f, 0.06f, 18.0f}};
+            {1.0f, 1.0f, 0.06f, 18.0f},
+            {0.5f, 0.4f, 0.1f, 0.0f},
+            {2.0f, 1.0f, 1.0f, 1.0f}};
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
@@ -112,6 +114,16 @@ inline shared::BladeRecord synthetic_blade(std::uint64_t variant, int n, int cou
             {6.2831853f * random(9), curve, 0, 0}};
 }
 
+/// (i + shift) * canopy / layers for every layer, or edge.
+inline std::vector<float> even_heights(int count, float canopy, float shift) {
+    const int layers = shift > 0 ? count : count - 1;
+    std::vector<float> heights;
+    for (int i = 0; i < count; ++i) {
+        heights.push_back((static_cast<float>(i) + shift) * canopy / static_cast<float>(layers));
+    }
+    return heights;
+}
+
 inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     grass::GrassSet set;
     set.name = "synthetic";
@@ -131,7 +143,8 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     for (int k = 0; k < 3; ++k) {
         const int size = 64 >> k, layers = 4 >> k, slices = 8 >> k;
         set.levels.push_back(
-            {layers, slices, noise_images(size, size, set.variants * layers * shared::kPlanes),
+            {layers, even_heights(layers + 1, set.canopy_m, 0), even_heights(layers, set.canopy_m, 0.5f), slices,
+             noise_images(size, size, set.variants * layers * shared::kPlanes),
              noise_images(size, size / 4, set.variants * 2 * slices * shared::kPlanes)});
     }
     for (const float elevation : {90.0f, 45.0f, 10.0f}) {
@@ -142,7 +155,7 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
         row.coarse_shares.assign(set.levels.size() - 1, 1.0f);
         set.far.push_back(row);
     }
-    set.appearance = grass_look();
+    set.species.push_back({"grass", "blade", 1, grass_look()});
     return set;
 }
 

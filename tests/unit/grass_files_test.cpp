@@ -251,7 +251,15 @@ TEST(GrassSet, SameSeedSameBytesAtAnyThreadCountAndReadsBackEqual) {
     EXPECT_EQ(read.seed, 2u);
     EXPECT_EQ(read.canopy_m, made.canopy_m);
     EXPECT_EQ(read.offset_range_m, made.offset_range_m);
-    EXPECT_EQ(std::memcmp(&read.appearance, &made.appearance, sizeof made.appearance), 0);
+    ASSERT_EQ(read.species.size(), made.species.size());
+    for (std::size_t s = 0; s < made.species.size(); ++s) {
+        EXPECT_EQ(read.species[s].name, made.species[s].name);
+        EXPECT_EQ(std::memcmp(&read.species[s].look, &made.species[s].look, sizeof made.species[s].look), 0);
+    }
+    for (std::size_t k = 0; k < made.levels.size(); ++k) {
+        EXPECT_EQ(read.levels[k].layer_edges, made.levels[k].layer_edges);
+        EXPECT_EQ(read.levels[k].layer_heights, made.levels[k].layer_heights);
+    }
     ASSERT_EQ(read.levels.size(), made.levels.size());
     for (std::size_t k = 0; k < read.levels.size(); ++k) {
         EXPECT_EQ(read.levels[k].layers.mips, made.levels[k].layers.mips);

@@ -17,7 +17,7 @@ inline Preset small_meadow() {
     Preset preset;
     preset.name = "small";
     preset.density_per_m2 = 300;
-    preset.width_m = {0.004, 0.007};
+    preset.species.front().width_m = {0.004, 0.007};
     preset.variants = 3;
     preset.size = 256;
     preset.layers = 8;

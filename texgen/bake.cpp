@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a preset to a set in memory: patch, layers and slices, far table, shares.
+#include <cmath>
+
+#include "texgen/far_level.h"
+#include "texgen/far_table.h"
+#include "texgen/placing.h"
+#include "texgen/step_timer.h"
+#include "texgen/writer.h"
+
+namespace sward::texgen {
+
+grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
+    Patch patch;
+    {
+        const StepTimer timer("patch");
+        patch = generate_patch(preset, options.threads);
+    }
+    grass::GrassSet set;
+    set.name = preset.name;
+    set.seed = static_cast<std::uint64_t>(preset.seed);
+    set.side_m = static_cast<float>(preset.side_m);
+    set.variants = patch.variants();
+    set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
+                                            (preset.side_m * preset.side_m));
+    double shares = 0;
+    for (const Species& species : preset.species)
+        shares += species.share;
+    for (const Species& species : preset.species)
+        set.species.push_back({species.name, species.element, static_cast<float>(species.share / shares),
+                               appearance(species)});
+    // The numbers a reader gets are floats; the textures are drawn for those, not for their
+    // doubles.
+    set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
+    set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
+    const std::vector<double> seen = heights_seen(patch, set.canopy_m, options.threads);
+    const std::vector<char> common = common_blades(patch);
+    std::size_t images = 0;
+    for (int k = 0; k < preset.levels; ++k)
+        images += level_images(preset, k);
+    {
+        const StepTimer timer("layers and slices");
+        base::Progress progress("layers and slices", images);
+        const BakeFrame frame{preset, patch,           set.canopy_m, set.offset_range_m,
+                              seen,   common,          options.threads, &progress};
+        for (int k = 0; k < preset.levels; ++k)
+            set.levels.push_back(bake_level(frame, k));
+    }
+    {
+        const StepTimer timer("far table");
+        set.far = far_table(patch, set.canopy_m, options.threads);
+    }
+    {
+        const StepTimer timer("shares of the shells");
+        calibrate_shells(set, options.threads);
+    }
+    set.blades = std::move(patch.blades);
+    set.variant_begin = std::move(patch.variant_begin);
+    return set;
+}
+
+} // namespace sward::texgen
