@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cerrno>
 #include <chrono>
+#include <cmath>
 #include <mutex>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -20,6 +22,8 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMessageLimit = 16384;
 constexpr auto kRedrawEvery = std::chrono::milliseconds(100);
 constexpr std::size_t kBarWidth = 30;
+constexpr std::size_t kNarrowestBar = 4;
+constexpr std::size_t kUsualColumns = 80;
 
 std::atomic<Verbosity> g_verbosity{Verbosity::kNormal};
 std::mutex g_mutex; // guards stderr and g_bar
@@ -43,7 +47,42 @@ void write_line(std::string_view prefix, std::string_view message) {
     write_stderr(g_bar.empty() ? line : "\r\x1b[K" + line + g_bar);
 }
 
+std::size_t terminal_columns() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col
+                                                                             : kUsualColumns;
+}
+
+/// "12 s", "3 min 20 s", "1 h 5 min".
+std::string readable_time(double seconds) {
+    const auto whole = static_cast<long long>(seconds + 0.5);
+    if (whole < 100)
+        return fmt::format("{} s", whole);
+    if (whole < 6000)
+        return fmt::format("{} min {} s", whole / 60, whole % 60);
+    return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
+}
+
 } // namespace
+
+std::string progress_bar(std::string_view title, double share, double elapsed_s,
+                         std::size_t columns) {
+    share = std::clamp(share, 0.0, 1.0);
+    const std::string time =
+        share >= 1  ? "in " + readable_time(elapsed_s)
+        : share > 0 ? readable_time(elapsed_s * (1 / share - 1)) + " left"
+                    : std::string();
+    const std::string tail = fmt::format("{:3.0f} % {}", std::floor(100 * share), time);
+    // A line that wraps could not be drawn over: the bar gives way first, then the text is cut.
+    const std::size_t rest = title.size() + tail.size() + 5; // blanks, brackets, the last column
+    const std::size_t width = std::min(kBarWidth, columns > rest ? columns - rest : 0);
+    const auto full = static_cast<std::size_t>(share * static_cast<double>(width));
+    std::string line(title);
+    if (width >= kNarrowestBar)
+        line += fmt::format(" [{}{}]", std::string(full, '#'), std::string(width - full, '.'));
+    line += " " + tail;
+    return line.substr(0, columns > 0 ? columns - 1 : 0);
+}
 
 void set_verbosity(Verbosity verbosity) {
     g_verbosity = verbosity;
@@ -91,11 +130,7 @@ void Progress::State::draw(bool finished) {
     drawn = now;
     const double share = static_cast<double>(done) / static_cast<double>(total);
     const double elapsed_s = std::chrono::duration<double>(now - start).count();
-    const auto full = std::min(kBarWidth, static_cast<std::size_t>(share * kBarWidth));
-    const std::string left =
-        done > 0 ? fmt::format("{:.0f} s left", elapsed_s * (1 / share - 1)) : std::string();
-    g_bar = fmt::format("{} [{}{}] {:3.0f} % {}", title, std::string(full, '#'),
-                        std::string(kBarWidth - full, '.'), 100 * share, left);
+    g_bar = progress_bar(title, share, elapsed_s, terminal_columns());
     write_stderr("\r\x1b[K" + g_bar);
 }
 

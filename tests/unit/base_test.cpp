@@ -506,5 +506,21 @@ TEST(Progress, TellsEachTenthOnceFromAnyThread) {
     set_verbosity(Verbosity::kNormal);
 }
 
+TEST(Progress, BarTellsTheTimeLeftAndFitsItsTerminal) {
+    EXPECT_EQ(progress_bar("files", 0, 3, 80), "files [..............................]   0 % ");
+    EXPECT_EQ(progress_bar("files", 0.25, 10, 80),
+              "files [#######.......................]  25 % 30 s left");
+    EXPECT_EQ(progress_bar("files", 0.5, 200, 80),
+              "files [###############...............]  50 % 3 min 20 s left");
+    EXPECT_EQ(progress_bar("files", 0.999, 2, 80).substr(39), " 99 % 0 s left"); // not done: not 100
+    EXPECT_EQ(progress_bar("files", 1, 7200, 80),
+              "files [##############################] 100 % in 2 h 0 min");
+    for (std::size_t columns = 0; columns < 90; ++columns)
+        EXPECT_LE(progress_bar("layers and slices", 0.3, 12, columns).size() + 1,
+                  std::max<std::size_t>(columns, 1));
+    EXPECT_EQ(progress_bar("layers", 0.3, 12, 24).find('['), std::string::npos);
+    EXPECT_NE(progress_bar("layers", 0.3, 12, 30).find("[#...]"), std::string::npos);
+}
+
 } // namespace
 } // namespace sward::base
