@@ -56,6 +56,8 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     }
     set.blades = std::move(patch.blades);
     set.variant_begin = std::move(patch.variant_begin);
+    if (options.block)
+        compress_shapes(set, options.threads);
     return set;
 }
 

@@ -155,6 +155,8 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
     app.add_flag("--checknan", o.check_nan, "look at every number written: exit 1 on NaN or infinity");
     app.add_flag("--dry-run", o.dry_run,
                  "check everything and tell what would be made and what it takes; write nothing");
+    app.add_flag_callback("--no-wrap", [&o] { o.wrap = false; },
+                          "a test tool: cut blades at the patch's edge, so that the set shows its joints");
     declare_common(app, o);
 }
 

@@ -46,6 +46,7 @@ struct BakeCommandOptions : CommonOptions {
     bool volume = true;
     bool check_nan = false;
     bool dry_run = false;
+    bool wrap = true; ///< false: a set that shows its joints, for tests
 };
 
 /// `texgen seam IN -o OUT`.

@@ -154,14 +154,21 @@ SetReport report_of(const grass::GrassSet& set, const std::string& path,
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
         const int number = static_cast<int>(k);
-        const std::uint64_t bytes =
-            unpacked(grass::layers_file(number), array_bytes(level.layers)) +
-            unpacked(grass::slices_file(number), array_bytes(level.slices));
+        const bool block = !level.layers_shape.mips.empty();
+        r.block_compressed = r.block_compressed || block;
+        std::uint64_t bytes =
+            unpacked(grass::layers_file(number), array_bytes(level.layers) / (block ? 2 : 1)) +
+            unpacked(grass::slices_file(number), array_bytes(level.slices) / (block ? 2 : 1));
+        if (block)
+            bytes += unpacked(grass::layers_shape_file(number), array_bytes(level.layers_shape)) +
+                     unpacked(grass::slices_shape_file(number), array_bytes(level.slices_shape));
         r.levels.push_back({level.layers.width, set.side_m / static_cast<double>(level.layers.width),
                             level.layer_count, level.slice_count, level.slices.height,
                             static_cast<int>(level.layers.mips.size()), bytes});
         r.gpu_bytes += bytes;
     }
+    for (const grass::Species& species : set.species)
+        r.species.push_back(fmt::format("{} ({}) {}", species.name, species.element, percent(species.share)));
     r.gpu_bytes += set.blades.size() * sizeof(shared::BladeRecord);
     return r;
 }

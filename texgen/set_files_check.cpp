@@ -99,6 +99,20 @@ std::vector<std::byte> checked_file(const fs::path& directory, const FileEntry& 
     return bytes;
 }
 
+std::vector<std::string> foreign_files(const fs::path& directory) {
+    std::vector<FileEntry> entries;
+    try {
+        entries = listed_files(directory);
+    } catch (const base::Error&) { // none, or damaged: what looks like ours may still be replaced
+    }
+    std::vector<std::string> names = unlisted_files(directory, entries);
+    std::erase_if(names, [](const std::string& name) {
+        const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
+        return texture || name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;
+    });
+    return names;
+}
+
 std::vector<std::string> unlisted_files(const fs::path& directory,
                                         std::span<const FileEntry> entries) {
     std::vector<std::string> names;

@@ -79,6 +79,10 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
              {"slice_rows", level.slices.height},
              {"layers", grass::layers_file(static_cast<int>(k))},
              {"slices", grass::slices_file(static_cast<int>(k))}});
+        if (!level.layers_shape.mips.empty()) {
+            root["levels"].back()["layers_shape"] = grass::layers_shape_file(static_cast<int>(k));
+            root["levels"].back()["slices_shape"] = grass::slices_shape_file(static_cast<int>(k));
+        }
     }
     root["far"] = ordered_json::array();
     for (const grass::FarRow& row : set.far) {

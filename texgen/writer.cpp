@@ -9,11 +9,14 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/log.h"
+#include "grass/bc5.h"
 #include "grass/blades_glb.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
+#include "texgen/check_nan.h"
 #include "texgen/parallel.h"
 #include "texgen/preview.h"
+#include "texgen/set_files_check.h"
 #include "texgen/step_timer.h"
 #include "texgen/volume.h"
 
@@ -30,16 +33,29 @@ struct Part {
 
 std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& options) {
     std::vector<Part> parts; // the longest work first, so that two workers end together
+    const auto add = [&](std::string name, const grass::TextureArray& planes) {
+        parts.push_back({std::move(name), [&planes, &options] {
+                             return grass::encode_ktx2(options.block ? grass::id_planes(planes) : planes,
+                                                       options.compression);
+                         }});
+    };
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
-        parts.push_back({grass::layers_file(static_cast<int>(k)), [&level, &options] {
-                             return grass::encode_ktx2(level.layers, options.compression);
-                         }});
+        const int number = static_cast<int>(k);
+        add(grass::layers_file(number), level.layers);
         if (k == 0 && options.volume)
             parts.push_back({grass::kVolumeFile, [&set] { return encode_volume(set); }});
-        parts.push_back({grass::slices_file(static_cast<int>(k)), [&level, &options] {
-                             return grass::encode_ktx2(level.slices, options.compression);
-                         }});
+        add(grass::slices_file(number), level.slices);
+    }
+    for (std::size_t k = 0; options.block && k < set.levels.size(); ++k) {
+        const grass::FarLevel& level = set.levels[k];
+        const int number = static_cast<int>(k);
+        for (const auto& [name, shapes] :
+             {std::pair{grass::layers_shape_file(number), &level.layers_shape},
+              std::pair{grass::slices_shape_file(number), &level.slices_shape}})
+            parts.push_back({name, [shapes, &options] {
+                                 return grass::encode_ktx2(*shapes, options.compression);
+                             }});
     }
     parts.push_back({grass::kBladesFile, [&set] {
                          return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
@@ -68,10 +84,11 @@ std::vector<FileEntry> write_files(const grass::GrassSet& set, const fs::path& f
     }
     if (options.preview) {
         const StepTimer timer("preview");
-        const fs::path path = folder / grass::kPreviewFile;
+        const fs::path path = options.preview_file.value_or(folder / grass::kPreviewFile);
         write_preview(set, path, options.threads);
-        files.push_back(
-            entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
+        if (!options.preview_file)
+            files.push_back(
+                entry_of(grass::kPreviewFile, base::read_file(path, std::uint64_t{1} << 30)));
     }
     base::write_file_atomic(folder / grass::kSetJson, set_json(set, files));
     return files;
@@ -87,18 +104,24 @@ void require_set_place(const fs::path& directory) {
     if (!fs::is_directory(status))
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file",
                                 "a directory for the set, or none yet");
-    // The directory that stands there is removed: never one that holds something else.
+    // The directory that stands there is removed: never one that holds something else, were it beside a set.
     if (!fs::is_empty(directory, error) && !fs::is_regular_file(directory / grass::kSetJson, error))
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
                                 "a directory with other files",
+                                "an earlier grass set, an empty directory, or none yet");
+    if (const std::vector<std::string> foreign = foreign_files(directory); !foreign.empty())
+        throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
+                                "a file that is not the set's: " + base::printable(foreign.front()),
                                 "an earlier grass set, an empty directory, or none yet");
     fs::path beside = directory; // the new set is written beside the old one
     base::require_writable(beside += ".new");
 }
 
-void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path& directory,
-               const BakeOptions& options) {
+std::vector<FileEntry> write_set(const grass::GrassSet& set, const Preset& preset,
+                                 const fs::path& directory, const BakeOptions& options) {
     require_set_place(directory);
+    if (options.check_nan)
+        base::log_info(fmt::format("--checknan: {} numbers, all finite", check_finite(set)));
     base::PendingOutput pending(directory, base::PendingOutput::Kind::kDirectory);
     std::vector<FileEntry> files;
     try {
@@ -118,6 +141,7 @@ void write_set(const grass::GrassSet& set, const Preset& preset, const fs::path&
         fmt::format("{}: {} blades in {} variants of {} m, canopy {:.3f} m, {} files, {:.1f} MiB",
                     directory.string(), set.blades.size(), set.variants, preset.side_m,
                     set.canopy_m, files.size() + 1, static_cast<double>(bytes) / (1 << 20)));
+    return files;
 }
 
 } // namespace sward::texgen

@@ -13,62 +13,67 @@ namespace {
 constexpr int kSide = 4;
 constexpr std::size_t kBc5Bytes = 16;
 
-/// Distinct values of a block and how many texels have each.
+/// Distinct values of a block and how many texels have each, in floats for vector units; those beyond
+/// `size` count nothing.
 struct Histogram {
-    std::array<int, 16> value;
-    std::array<int, 16> count;
-    int size = 0;
+    std::array<float, 16> value{};
+    std::array<float, 16> count{};
+    std::size_t size = 0;
 
     void add(int v) {
-        int i = 0;
-        while (i < size && value[i] != v)
+        const auto f = static_cast<float>(v);
+        std::size_t i = 0;
+        while (i < size && value[i] != f)
             ++i;
-        if (i == size) {
-            value[i] = v;
-            count[i] = 0;
-            ++size;
-        }
-        ++count[i];
+        value[i] = f;
+        count[i] += 1;
+        size = std::max(size, i + 1);
     }
 };
 
 struct Ends {
     int low = 0, high = 0;
-    long error = 0; ///< sum of squares in units of (1 / steps)^2
+    float error = 0; ///< sum of squares
 };
 
-/// Error of the values against `steps` + 1 even values from low to high.
-long error_of(const Histogram& h, int low, int high, int steps) {
-    const int span = high - low;
-    long sum = 0;
-    for (int i = 0; i < h.size; ++i) {
-        const int above = h.value[i] - low;
-        const int step = above <= 0 ? 0 : std::min(steps, (2 * steps * above + span) / (2 * span));
-        const long off = steps * above - static_cast<long>(span) * step;
-        sum += h.count[i] * off * off;
-    }
-    return sum;
+/// Sum of squares of the values against `steps` + 1 even values from low to high. Four sums, so that the
+/// order, and with it the bytes, do not depend on the compiler's vectors.
+float error_of(const Histogram& h, int low, int high, int steps) {
+    const auto base = static_cast<float>(low);
+    const auto most = static_cast<float>(steps);
+    const float step = static_cast<float>(high - low) / most;
+    const float per_step = 1 / step;
+    std::array<float, 4> sum{};
+    for (std::size_t i = 0; i < h.size; i += 4)
+        for (std::size_t lane = 0; lane < 4; ++lane) {
+            const float above = h.value[i + lane] - base;
+            const float place = std::min(std::max(above * per_step + 0.5f, 0.0f), most);
+            const float off = above - static_cast<float>(static_cast<int>(place)) * step;
+            sum[lane] += h.count[i + lane] * (off * off);
+        }
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 /// Descent over both ends from the extremes, in shrinking steps.
 Ends fit(const Histogram& h, int steps) {
-    const auto [least, most] = std::minmax_element(h.value.begin(), h.value.begin() + h.size);
-    Ends best{*least, *most, 0};
+    const auto end = h.value.begin() + static_cast<std::ptrdiff_t>(h.size);
+    const auto [least, most] = std::minmax_element(h.value.begin(), end);
+    Ends best{static_cast<int>(*least), static_cast<int>(*most), 0};
     if (best.high - best.low <= steps) { // every whole value has a place in the palette
         best.low = std::min(best.low, 255 - steps);
         best.high = best.low + steps;
         return best;
     }
     best.error = error_of(h, best.low, best.high, steps);
-    for (int move = std::max(1, (best.high - best.low) / steps); move > 0 && best.error > 0;) {
+    for (int move = std::max(1, (best.high - best.low) / steps); move > 0;) {
         const Ends from = best;
-        for (int i = -2; i <= 2; ++i)
-            for (int j = -2; j <= 2; ++j) {
+        for (int i = -1; i <= 1; ++i)
+            for (int j = -1; j <= 1; ++j) {
                 const int low = std::max(0, from.low + i * move);
                 const int high = std::min(255, from.high + j * move);
-                if (high <= low)
+                if ((i == 0 && j == 0) || high <= low)
                     continue;
-                const long error = error_of(h, low, high, steps);
+                const float error = error_of(h, low, high, steps);
                 if (error < best.error)
                     best = {low, high, error};
             }
@@ -82,12 +87,12 @@ Bc4Block pack(int end0, int end1, std::span<const std::uint8_t, 16> values, std:
     const std::array<double, 8> palette =
         bc4_palette(static_cast<std::uint8_t>(end0), static_cast<std::uint8_t>(end1));
     std::uint64_t bits = 0;
-    for (int i = 0; i < 16; ++i) {
+    for (std::size_t i = 0; i < 16; ++i) {
         if (!(used >> i & 1))
             continue;
-        const double v = values[static_cast<std::size_t>(i)] / 255.0;
-        int nearest = 0;
-        for (int k = 1; k < 8; ++k)
+        const double v = values[i] / 255.0;
+        std::size_t nearest = 0;
+        for (std::size_t k = 1; k < 8; ++k)
             if (std::abs(palette[k] - v) < std::abs(palette[nearest] - v))
                 nearest = k;
         bits |= static_cast<std::uint64_t>(nearest) << 3 * i;
@@ -126,6 +131,11 @@ void compress_block(const View& view, const std::uint8_t* id, std::uint8_t* shap
         for (std::size_t c = 0; c < 4; ++c)
             values[c][i] = shape[4 * t + c];
     });
+    if (used == 0) { // most blocks: nothing stands there
+        std::memset(out[0], 0, kBc5Bytes);
+        std::memset(out[1], 0, kBc5Bytes);
+        return;
+    }
     for (std::size_t c = 0; c < 4; ++c) {
         const Bc4Block block = encode_bc4(values[c], used);
         std::memcpy(out[c / 2] + 8 * (c % 2), block.data(), block.size());
@@ -180,12 +190,14 @@ Bc4Block encode_bc4(std::span<const std::uint8_t, 16> values, std::uint16_t used
             if (v != 0 && v != 255)
                 inner.add(v);
         }
-    if (all.size <= 1)
-        return pack(all.size ? all.value[0] : 0, all.size ? all.value[0] : 0, values, used);
+    if (all.size <= 1) {
+        const int only = all.size ? static_cast<int>(all.value[0]) : 0;
+        return pack(only, only, values, used);
+    }
     const Ends seven = fit(all, 7);
     if (inner.size < all.size && seven.error > 0) {
         const Ends five = inner.size ? fit(inner, 5) : Ends{};
-        if (five.error * 49 < seven.error * 25)
+        if (five.error < seven.error)
             return pack(five.low, five.high, values, used);
     }
     return pack(seven.high, seven.low, values, used);

@@ -69,13 +69,14 @@ std::vector<std::byte> pack(const std::vector<std::uint8_t>& raw, int compressio
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, compression);
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag,
                            1); // a flipped byte must not become another picture
-    std::vector<std::byte> packed(ZSTD_compressBound(raw.size()));
+    // Not a vector: what zstd does not write takes no memory.
+    const std::size_t bound = ZSTD_compressBound(raw.size());
+    const auto packed = std::make_unique_for_overwrite<std::byte[]>(bound);
     const std::size_t size =
-        ZSTD_compress2(context.get(), packed.data(), packed.size(), raw.data(), raw.size());
+        ZSTD_compress2(context.get(), packed.get(), bound, raw.data(), raw.size());
     if (ZSTD_isError(size))
         throw base::Error(ExitCode::kFailure, fmt::format("zstd: {}", ZSTD_getErrorName(size)));
-    packed.resize(size);
-    return packed;
+    return {packed.get(), packed.get() + size};
 }
 
 /// Reads a file of which nothing is believed.

@@ -18,5 +18,11 @@ std::string layers_file(int level) {
 std::string slices_file(int level) {
     return level_file("slices", level);
 }
+std::string layers_shape_file(int level) {
+    return level_file("layers_shape", level);
+}
+std::string slices_shape_file(int level) {
+    return level_file("slices_shape", level);
+}
 
 } // namespace sward::grass

@@ -21,5 +21,8 @@ inline constexpr const char* kPreviewFile = "preview.png";
 /// layers.ktx2, layers_1.ktx2, ...
 [[nodiscard]] std::string layers_file(int level);
 [[nodiscard]] std::string slices_file(int level);
+/// layers_shape.ktx2, layers_shape_1.ktx2, ...: beside the two above where a set keeps its shape planes as BC5.
+[[nodiscard]] std::string layers_shape_file(int level);
+[[nodiscard]] std::string slices_shape_file(int level);
 
 } // namespace sward::grass

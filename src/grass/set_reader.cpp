@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "grass/bc5.h"
 #include "grass/blades_glb.h"
 #include "grass/grass_set.h"
 #include "grass/ktx2.h"
@@ -205,12 +206,39 @@ void read_far(const SetJson& set, GrassSet& out) {
 }
 
 TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name,
-                        int images) {
+                        int images, TexelFormat format = TexelFormat::kRgba8) {
     TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
     if (array.layers != images)
         throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images",
                                 std::to_string(array.layers), std::to_string(images));
+    if (array.format != format)
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "format", "another",
+                                format == TexelFormat::kBc5 ? "BC5 UNORM" : "RGBA8 UNORM");
     return array;
+}
+
+/// One family of a level: both planes, from one file or, with `shape`, from two.
+struct FamilyFiles {
+    std::string planes, shape;
+    int images = 0; ///< of each plane
+};
+
+void read_family(const SetJson& set, const fs::path& directory, const FamilyFiles& files,
+                 TextureArray& planes, TextureArray* shape) {
+    if (!shape) {
+        planes = read_array(set, directory, files.planes, files.images * shared::kPlanes);
+        return;
+    }
+    const TextureArray ids = read_array(set, directory, files.planes, files.images);
+    *shape = read_array(set, directory, files.shape, files.images * 2, TexelFormat::kBc5);
+    if (shape->width != ids.width || shape->height != ids.height ||
+        shape->mips.size() != ids.mips.size())
+        throw base::input_error(ExitCode::kBadInput, directory / files.shape, 0, "size",
+                                fmt::format("{} x {}, {} mips", shape->width, shape->height,
+                                            shape->mips.size()),
+                                fmt::format("{} x {}, {} mips as in {}", ids.width, ids.height,
+                                            ids.mips.size(), files.planes));
+    planes = join_planes(ids, *shape);
 }
 
 void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
@@ -226,10 +254,13 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
         level.layer_heights = read_heights(set, entry, "layer_heights_m",
                                            static_cast<std::size_t>(level.layer_count), out.canopy_m);
         // Names are ours, not the file's: nothing outside the directory can be asked for.
-        level.layers = read_array(set, directory, layers_file(k),
-                                  out.variants * level.layer_count * shared::kPlanes);
-        level.slices = read_array(set, directory, slices_file(k),
-                                  out.variants * 2 * level.slice_count * shared::kPlanes);
+        const bool block = entry.contains("layers_shape");
+        read_family(set, directory,
+                    {layers_file(k), layers_shape_file(k), out.variants * level.layer_count},
+                    level.layers, block ? &level.layers_shape : nullptr);
+        read_family(set, directory,
+                    {slices_file(k), slices_shape_file(k), out.variants * 2 * level.slice_count},
+                    level.slices, block ? &level.slices_shape : nullptr);
         if (level.layers.width != level.layers.height || level.layers.width != level.slices.width)
             set.refuse("levels",
                        fmt::format("layers {} x {}, slices {} wide", level.layers.width,
