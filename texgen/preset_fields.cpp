@@ -12,7 +12,7 @@ const Field kFields[] = {
     {"", "name", &Preset::name, 1, 64, "letters, digits, - and _"},
     {"", "seed", &Preset::seed, 0, kMaxSeed, ""},
     {"patch", "side_m", &Preset::side_m, 0.1, 64, "metres"},
-    {"patch", "density_per_m2", &Preset::density_per_m2, 1, 50000, "blades per square metre"},
+    {"patch", "density_per_m2", &Preset::density_per_m2, 1, 1000000, "blades per square metre"},
     {"patch", "variants", &Preset::variants, 1, 16, ""},
     {"", "name", &Species::name, 1, 64, "letters, digits, - and _"},
     {"", "element", &Species::element, 1, 16, "letters: blade, seed_head, leaf or flower"},
@@ -44,6 +44,7 @@ const Field kFields[] = {
     {"texture", "size", &Preset::size, 32, 2048, "texels, a power of two"},
     {"texture", "layers", &Preset::layers, 2, 256, ""},
     {"texture", "slices", &Preset::slices, 2, 256, "an axis"},
+    {"texture", "height_map", &Preset::height_map, 1, 8, "letters: none, linear or top"},
     {"texture", "levels", &Preset::levels, 1, 4, ""},
 };
 

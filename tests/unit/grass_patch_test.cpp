@@ -40,7 +40,7 @@ TEST(Preset, RefusesNonsenseWithKeyValueAndRange) {
         {"[blades]\nlength_m = [1, 2]\n", ExitCode::kBadInput, {"p.toml:1", "blades", "blade"}},
         {"[patch]\ndensity_per_m2 = -5\n",
          ExitCode::kBadInput,
-         {"p.toml:2", "patch.density_per_m2", "-5", "1 to 50000"}},
+         {"p.toml:2", "patch.density_per_m2", "-5", "1 to 1000000"}},
         {"[patch]\ndensity_per_m2 = nan\n", ExitCode::kBadInput, {"density_per_m2", "nan"}},
         {"[patch]\nside_m = inf\n", ExitCode::kBadInput, {"side_m", "inf"}},
         {"[patch]\ndensity_per_m2 = 50000\nside_m = 60\n",
