@@ -48,7 +48,9 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     }
     {
         const StepTimer timer("far table");
-        set.far = far_table(patch, set.canopy_m, options.threads);
+        FarTable table = far_table(blade_canopy(patch, set.canopy_m), options.threads);
+        set.far = std::move(table.rows);
+        set.far_light = std::move(table.light);
     }
     {
         const StepTimer timer("shares of the shells");

@@ -4,14 +4,16 @@
 #include <vector>
 
 #include "grass/grass_set.h"
-#include "texgen/patch.h"
+#include "texgen/far_light.h"
 
 namespace sward::texgen {
 
-/// Coverage, mean height and place along the blade that rays through the blades meet, at falling
-/// elevations; the rays spread evenly over places, azimuths and variants.
-[[nodiscard]] std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m,
-                                                   int threads);
+/// What rays through a canopy meet at falling elevations, and its light. The rays spread evenly over places, azimuths and variants.
+struct FarTable {
+    std::vector<grass::FarRow> rows; ///< of the canopy at rest; the shells' shares are calibrate_shells' to fill
+    grass::FarLight light;           ///< at rest and leaning; at rest its coverage and heights are the rows'
+};
+[[nodiscard]] FarTable far_table(const Canopy& canopy, int threads);
 
 /// Fills the far rows' shares, so that the textures of each level cover what the rays of the row
 /// met, or as near as shells can bring them. Lists the rows at verbosity -v.

@@ -2,12 +2,9 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
-#include <exception>
-#include <mutex>
+#include <functional>
 #include <thread>
-#include <vector>
 
 namespace sward::texgen {
 
@@ -17,34 +14,11 @@ namespace sward::texgen {
                          : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// work(task, worker) for every task in [0, count), in any order on `threads` workers, worker in
-/// [0, threads). Tasks write to places of their own, so the result is the same at any number of
-/// threads. The first exception is rethrown.
-template<typename Work> void parallel_for(std::size_t count, int threads, const Work& work) {
-    std::atomic<std::size_t> next{0};
-    std::exception_ptr failure;
-    std::mutex guard;
-    const auto run = [&](int worker) {
-        try {
-            for (std::size_t task = next++; task < count; task = next++)
-                work(task, worker);
-        } catch (...) {
-            const std::lock_guard lock(guard);
-            if (!failure)
-                failure = std::current_exception();
-            next = count;
-        }
-    };
-    const int workers =
-        static_cast<int>(std::min(static_cast<std::size_t>(std::max(threads, 1)), count));
-    {
-        std::vector<std::jthread> pool;
-        for (int i = 1; i < workers; ++i)
-            pool.emplace_back(run, i);
-        run(0);
-    }
-    if (failure)
-        std::rethrow_exception(failure);
-}
+/// work(task, worker) for every task in [0, count), begun in rising order on at most `threads` threads of
+/// TBB, worker in [0, threads) and never twice at a time. Tasks write to places of their own, so the
+/// result is the same at any number of threads. What the tasks call of TBB (OpenVDB does) stays on those
+/// threads. The first exception is rethrown once the tasks in work have ended; no further one begins.
+void parallel_for(std::size_t count, int threads,
+                  const std::function<void(std::size_t task, int worker)>& work);
 
 } // namespace sward::texgen

@@ -96,6 +96,13 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                                {"slice_share", decimal(row.slice_share)},
                                {"shell_share", shares}});
     }
+    const grass::FarLight& light = set.far_light;
+    root["far_light"] = {{"leans", decimals(light.leans)},
+                         {"lean_azimuths_deg", decimals(light.lean_azimuths_deg)},
+                         {"elevations_deg", decimals(light.elevations_deg)},
+                         {"sun_elevations_deg", decimals(light.sun_elevations_deg)},
+                         {"sun_azimuths", light.sun_azimuths},
+                         {"table", grass::kFarLightFile}};
     for (const FileEntry& file : files)
         root["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
     return root.dump(2) + "\n";

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "assets/assets.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
@@ -14,6 +15,7 @@
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 #include "texgen/check_nan.h"
+#include "texgen/far_light.h"
 #include "texgen/parallel.h"
 #include "texgen/preview.h"
 #include "texgen/set_files_check.h"
@@ -60,6 +62,9 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     parts.push_back({grass::kBladesFile, [&set] {
                          return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
                      }});
+    parts.push_back({grass::kFarLightFile, [&set, &options] {
+                         return grass::encode_ktx2(grass::encode_far_light(set.far_light), options.compression);
+                     }});
     return parts;
 }
 
@@ -82,6 +87,9 @@ std::vector<FileEntry> write_files(const grass::GrassSet& set, const fs::path& f
             progress.advance();
         });
     }
+    const fs::path picture = folder / grass::kFarLightPicture;
+    assets::write_exr(picture, far_light_picture(set.far_light));
+    files.push_back(entry_of(grass::kFarLightPicture, base::read_file(picture, std::uint64_t{1} << 30)));
     if (options.preview) {
         const StepTimer timer("preview");
         const fs::path path = options.preview_file.value_or(folder / grass::kPreviewFile);

@@ -9,6 +9,11 @@
 
 SHARED_BEGIN
 
+// Extinction by the whole canopy (optical depth) of sunlight at zenith and of skylight: every Light has these, in the renderer and in
+// texgen's far table.
+SHARED_CONST float kSunExtinction = 0.55f;
+SHARED_CONST float kSkyExtinction = 1.1f;
+
 // Sun and sky, linear. 64 bytes.
 struct Light {
     vec4 to_sun;  // unit direction; w: extinction of sunlight by the whole canopy at zenith (optical depth)
@@ -50,6 +55,11 @@ SHARED_FN vec3 sward_tint(float tint) {
     return mix(vec3(0.66f, 0.90f, 0.70f), vec3(1.42f, 1.10f, 0.95f), tint);
 }
 
+// Sky radiance as grass takes it, the same from everywhere.
+SHARED_FN vec3 even_sky(Light light) {
+    return mix(vec3(light.horizon), vec3(light.zenith), 0.6f);
+}
+
 // Sunlight that reaches relative height h (0 ground .. 1 top) of a canopy whose ground's normal is at cosine `slope` to the
 // sun: the path through the canopy grows as the ground turns away, and ends in the hill's own shadow.
 SHARED_FN float canopy_sun(Light light, float h, float slope) {
@@ -79,7 +89,7 @@ SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, 
     // Against the light a blade glows: transmitted sunlight is yellower than reflected.
     float against = 0.5f - 0.5f * dot(to_eye, sun_way);
     vec3 glow = point.albedo * vec3(1.25f, 1.15f, 0.5f) * (look.dry.w * against * against * against);
-    vec3 sky = mix(vec3(light.horizon), vec3(light.zenith), 0.6f) * canopy_sky(light, point.height);
+    vec3 sky = even_sky(light) * canopy_sky(light, point.height);
     vec3 sun = vec3(light.sun) * canopy_sun(light, point.height, point.slope);
     return sun * ((point.albedo + glow) * diffuse + vec3(specular, specular, specular)) + sky * point.albedo;
 }
@@ -89,7 +99,7 @@ SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) 
     float slope = dot(normal, vec3(light.to_sun));
     float sun = mix(max(slope, 0.0f), max(slope, 0.0f) * canopy_sun(light, 0.0f, slope), density);
     float sky = mix(1.0f, canopy_sky(light, 0.0f), density) * (0.5f + 0.5f * normal.y);
-    return albedo * (vec3(light.sun) * sun + mix(vec3(light.horizon), vec3(light.zenith), 0.6f) * sky);
+    return albedo * (vec3(light.sun) * sun + even_sky(light) * sky);
 }
 
 // Sky radiance in a unit direction.

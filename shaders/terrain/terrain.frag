@@ -4,19 +4,24 @@
 #include "lib/ground.glsl"
 #include "lib/output.glsl"
 
-layout(binding = TEX_FAR_APPEARANCE) uniform sampler2D far_appearance;
+layout(binding = TEX_FAR_APPEARANCE) uniform sampler2DArray far_appearance;
 
 in vec3 world;
 
-// Radiance (rgb) and coverage (a) of the whole canopy by azimuth from the sun and elevation of the view.
-vec4 canopy_from_afar(vec3 to_eye, vec3 normal) {
-    vec2 flat_eye = normalize(to_eye.xz + vec2(1e-5, 0.0));
-    vec2 flat_sun = normalize(frame.light.to_sun.xz + vec2(1e-5, 0.0));
-    float azimuth = atan(length(vec2(dot(flat_eye, vec2(-flat_sun.y, flat_sun.x)))), dot(flat_eye, flat_sun)) / kPi;
+// The whole canopy by the sun's azimuth from the eye's and the elevation of the view.
+struct Canopy {
+    vec4 sun; // radiance by sunlight on flat ground; coverage
+    vec4 sky; // radiance by skylight; mean height of what is seen
+};
+
+Canopy canopy_from_afar(vec3 to_eye, vec3 normal) {
+    vec2 eye = normalize(to_eye.xz + vec2(1e-5, 0.0));
+    vec2 sun = frame.light.to_sun.xz + vec2(1e-5, 0.0);
+    float azimuth = atan(eye.x * sun.y - eye.y * sun.x, dot(eye, sun)) / (2.0 * kPi);
     float elevation = clamp(dot(to_eye, normal), 0.0, 1.0);
     vec2 size = vec2(textureSize(far_appearance, 0));
-    vec2 uv = (vec2(azimuth, elevation) * (size - 1.0) + 0.5) / size;
-    return textureLod(far_appearance, uv, 0.0);
+    vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
+    return Canopy(textureLod(far_appearance, vec3(uv, 0.0), 0.0), textureLod(far_appearance, vec3(uv, 1.0), 0.0));
 }
 
 void main() {
@@ -31,11 +36,12 @@ void main() {
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
     left_shells *= frame.grass.z; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
-    vec4 canopy = canopy_from_afar(to_eye, ground.normal);
-    float coverage = 1.0 - pow(1.0 - min(canopy.a, 0.999), ground.density * left_shells);
+    Canopy canopy = canopy_from_afar(to_eye, ground.normal);
+    float coverage = 1.0 - pow(1.0 - min(canopy.sun.a, 0.999), ground.density * left_shells);
+    // The table is of flat ground.
     float slope = dot(ground.normal, frame.light.to_sun.xyz);
-    float relight = canopy_sun(frame.light, 0.6, slope) / max(canopy_sun(frame.light, 0.6, frame.light.to_sun.y), 1e-3);
-    vec3 grass = canopy.rgb * mix(1.0, relight, 0.8) * sward_tint(ground.tint);
+    float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
+    vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(ground.tint);
 
     vec4 haze = haze_of(frame.light, from_eye);
     vec3 radiance = mix(soil, grass, coverage) * haze.a + haze.rgb;

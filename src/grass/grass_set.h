@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "grass/far_light.h"
 #include "shared/blade.h"
 #include "shared/grass_layout.h"
 
@@ -86,6 +87,7 @@ struct GrassSet {
     std::vector<std::uint32_t> variant_begin;   ///< variants + 1 offsets into blades
     std::vector<FarLevel> levels;               ///< at least 1
     std::vector<FarRow> far;                    ///< falling elevation
+    FarLight far_light;                         ///< its light, at the same elevations
     std::vector<Species> species;               ///< 1 to shared::kMaxSpecies; a blade's shape.w and a texel's A name one
 };
 

@@ -9,12 +9,14 @@ namespace sward::grass {
 
 /// Raised whenever sets of the same preset change, in form or in content: belongs in the key of every cache of
 /// sets, and the reader refuses every other.
-inline constexpr int kSetFormatVersion = 8;
+inline constexpr int kSetFormatVersion = 9;
 inline constexpr int kMaxVariants = 16;
 inline constexpr int kMaxFarLevels = 4; // as shared::kMaxFarLevels: the renderer has room for so many
 inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;
 inline constexpr const char* kSetJson = "set.json";
 inline constexpr const char* kBladesFile = "blades.glb";
+inline constexpr const char* kFarLightFile = "far.ktx2";
+inline constexpr const char* kFarLightPicture = "far.exr"; // the same for tools
 inline constexpr const char* kVolumeFile = "volume.vdb";
 inline constexpr const char* kPreviewFile = "preview.png";
 

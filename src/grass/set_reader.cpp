@@ -205,6 +205,37 @@ void read_far(const SetJson& set, GrassSet& out) {
     }
 }
 
+/// Degrees from `low` to `high`, rising or falling throughout.
+std::vector<float> read_angles(const SetJson& set, const json& object, const char* key, double low, double high, bool rising) {
+    std::vector<float> angles;
+    for (const json& value : set.array(object, key, 1, kMaxLightSteps)) {
+        angles.push_back(static_cast<float>(set.in_range(value, key, low, high)));
+        const std::size_t n = angles.size();
+        if (n > 1 && (rising ? angles[n - 1] <= angles[n - 2] : angles[n - 1] >= angles[n - 2]))
+            set.refuse(key, fmt::format("{} after {}", angles[n - 1], angles[n - 2]), rising ? "rising numbers" : "falling numbers");
+    }
+    return angles;
+}
+
+void read_far_light(const SetJson& set, const fs::path& directory, GrassSet& out) {
+    const json& table = set.at(set.root(), "far_light");
+    FarLight& light = out.far_light;
+    light.leans = read_angles(set, table, "leans", 0, 1, true);
+    light.lean_azimuths_deg = read_angles(set, table, "lean_azimuths_deg", 0, 180, true);
+    light.elevations_deg = read_angles(set, table, "elevations_deg", 0, 90, false);
+    light.sun_elevations_deg = read_angles(set, table, "sun_elevations_deg", -90, 90, true);
+    light.sun_azimuths = set.whole(table, "sun_azimuths", 1, static_cast<int>(kMaxLightSteps));
+    if (light.leans.front() != 0)
+        set.refuse("leans", std::to_string(light.leans.front()), "0, at rest, first");
+    const std::vector<float>& azimuths = light.lean_azimuths_deg;
+    if (azimuths.front() != 0 || (azimuths.size() > 1 && azimuths.back() != 180))
+        set.refuse("lean_azimuths_deg", fmt::format("{} to {}", azimuths.front(), azimuths.back()), "0 to 180, or 0 alone");
+    if (!std::ranges::equal(light.elevations_deg, out.far, {}, {}, &FarRow::elevation_deg))
+        set.refuse("elevations_deg", fmt::format("{} others", light.elevations_deg.size()), "those of far");
+    decode_far_light(decode_ktx2(verified_file(set, directory, kFarLightFile), directory / kFarLightFile),
+                     directory / kFarLightFile, light);
+}
+
 TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name,
                         int images, TexelFormat format = TexelFormat::kRgba8) {
     TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
@@ -298,6 +329,7 @@ GrassSet read_grass_set(const fs::path& directory) {
             blade.shape.w != std::floor(blade.shape.w))
             set.refuse("species", fmt::format("a blade of number {}", blade.shape.w),
                        fmt::format("a whole number below {}", out.species.size()));
+    read_far_light(set, directory, out);
     read_levels(set, directory, out);
     return out;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "gl/texture.h"
 #include "grass/grass_set.h"
 #include "shared/shading.h"
@@ -8,16 +10,16 @@
 
 namespace sward::shells {
 
-/// Radiance and coverage of the whole canopy for the ground beyond the shells, by azimuth between eye and sun (0..pi) and by
-/// sine of the view's elevation (0..1): RGBA, kAzimuths x kElevations. The blades of the set, through the one shading function,
-/// weighted by how much of each the eye sees; coverage and mean height from the set's rays (GrassSet::far).
+/// The canopy as the ground beyond the shells wears it, from the set's far light: RGBA, kAzimuths x kElevations, two layers. Layer 0:
+/// radiance by sunlight on flat ground, coverage. Layer 1: radiance by skylight, mean height (0..1) of what is seen. Columns: angle
+/// from the direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1.
 class FarAppearance {
 public:
-    static constexpr int kAzimuths = 24;
+    static constexpr int kAzimuths = 32;
     static constexpr int kElevations = 24;
 
     explicit FarAppearance(const grass::GrassSet& set) : set_(set) {}
-    /// Computed when the light or the mean wind changes, in some milliseconds on the CPU.
+    /// Computed when the light or the mean wind changes, in about a millisecond on the CPU.
     void update(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
@@ -28,8 +30,8 @@ private:
     gl::Texture table_;
 };
 
-/// Coverage (x) and mean height of hits over the canopy's (y) at a sine of elevation, between the set's rows.
-[[nodiscard]] glm::vec2 far_row_at(const grass::GrassSet& set, float sine);
+/// The texels of that table, layer-major: `wind` is the mean wind's velocity x, z (m/s) and the grass's response (WindField::mean).
+[[nodiscard]] std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light, const glm::vec4& wind);
 
 /// Share of the slices at a view elevation (radians), likewise.
 [[nodiscard]] float slice_share_at(const grass::GrassSet& set, float elevation);

@@ -25,9 +25,9 @@ inline shared::GrassAppearance grass_look() {
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
-    return {glm::vec4(to_sun, 0.55f),
+    return {glm::vec4(to_sun, shared::kSunExtinction),
             {3.6f, 3.4f, 3.0f, 2.2e-5f},
-            {0.22f, 0.42f, 0.85f, 1.1f},
+            {0.22f, 0.42f, 0.85f, shared::kSkyExtinction},
             {0.82f, 0.96f, 1.12f, 1}};
 }
 
@@ -124,6 +124,26 @@ inline std::vector<float> even_heights(int count, float canopy, float shift) {
     return heights;
 }
 
+/// Light of the rows' elevations that rises with the sun and falls against it and with the bend.
+inline grass::FarLight synthetic_light(const std::vector<grass::FarRow>& rows) {
+    grass::FarLight light{{0, 0.5f}, {0, 90, 180}, {}, {-5, 10, 90}, 4, {}};
+    for (const grass::FarRow& row : rows) {
+        light.elevations_deg.push_back(row.elevation_deg);
+    }
+    for (std::size_t image = 0; image < light.images(); ++image) {
+        const grass::FarRow& row = rows[image % rows.size()];
+        const float bent = image < light.images() / 2 ? 1.0f : 0.7f;
+        for (std::size_t s = 0; s < light.sun_elevations_deg.size(); ++s) {
+            for (int azimuth = 0; azimuth < light.sun_azimuths; ++azimuth) {
+                const float against = azimuth == 2 ? 0.8f : 1.0f;
+                light.samples.push_back({glm::vec3(0.06f, 0.09f, 0.03f) * (bent * against * static_cast<float>(s)),
+                                         glm::vec3(0.05f, 0.08f, 0.02f) * bent, row.coverage, row.height});
+            }
+        }
+    }
+    return light;
+}
+
 inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     grass::GrassSet set;
     set.name = "synthetic";
@@ -155,6 +175,7 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
         row.coarse_shares.assign(set.levels.size() - 1, 1.0f);
         set.far.push_back(row);
     }
+    set.far_light = synthetic_light(set.far);
     set.species.push_back({"grass", "blade", 1, grass_look()});
     return set;
 }

@@ -139,28 +139,20 @@ TEST(Shading, MeanColourIsTheSameAtEveryDetail) {
     EXPECT_EQ(shared::colour_detail(1), 1);
 }
 
-TEST(FarTable, RowsInterpolateBySineAndHoldAtTheEnds) {
-    grass::GrassSet set;
-    for (const auto& [elevation, coverage, height] :
-         {std::tuple{90.0f, 0.2f, 0.6f}, {30.0f, 0.6f, 0.7f}, {0.0f, 1.0f, 0.9f}}) {
-        grass::FarRow row;
-        row.elevation_deg = elevation;
-        row.coverage = coverage;
-        row.height = height;
-        set.far.push_back(row);
+TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
+    grass::GrassSet set = tests::synthetic_set(); // 90, 45 and 10 degrees
+    const Light light = tests::daylight(glm::normalize(vec3(0.5f, 0.7f, 0)));
+    const auto texels = shells::canopy_table(set.far_light, light, {0, 0, 0, 0.1f});
+    constexpr int last = shells::FarAppearance::kElevations - 1;
+    const auto coverage = [&](int row) { return texels[static_cast<std::size_t>(row * shells::FarAppearance::kAzimuths)].a; };
+    EXPECT_EQ(coverage(0), set.far[2].coverage);
+    EXPECT_EQ(coverage(3), set.far[2].coverage); // sine 0.13 is below 10 degrees
+    EXPECT_EQ(coverage(last), set.far[0].coverage);
+    EXPECT_NEAR(coverage(16), set.far[1].coverage, 0.01f); // sine 0.696, beside 45 degrees
+    for (int row = 4; row < last; ++row) {
+        EXPECT_GT(coverage(row - 1), coverage(row) - 1e-6f) << row;
+        EXPECT_LT(coverage(row - 1) - coverage(row), 0.1f) << row;
     }
-    const auto expect_row = [&](float sine, float coverage, float height) {
-        const vec2 row = shells::far_row_at(set, sine);
-        EXPECT_NEAR(row.x, coverage, 1e-5f) << sine;
-        EXPECT_NEAR(row.y, height, 1e-5f) << sine;
-    };
-    expect_row(1.0f, 0.2f, 0.6f);
-    expect_row(1.5f, 0.2f, 0.6f);
-    expect_row(0.75f, 0.4f, 0.65f); // halfway in sine
-    expect_row(0.5f, 0.6f, 0.7f);
-    expect_row(0.25f, 0.8f, 0.8f);
-    expect_row(0.0f, 1.0f, 0.9f);
-    expect_row(-0.5f, 1.0f, 0.9f);
 }
 
 TEST(FarTable, ShellSharesInterpolateByLevel) {
