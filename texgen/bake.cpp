@@ -10,6 +10,16 @@
 
 namespace sward::texgen {
 
+namespace {
+
+void report_placing(const std::vector<double>& seen, double canopy_m, int layers) {
+    base::log_debug(fmt::format("{} layers lie {:.1f} mm from what is seen, {:.1f} mm if placed evenly", layers,
+                                1000 * placing_error(seen, place_layers(seen, canopy_m, layers)),
+                                1000 * placing_error(seen, even_layers(canopy_m, layers))));
+}
+
+} // namespace
+
 grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     Patch patch;
     {
@@ -20,6 +30,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     set.name = preset.name;
     set.seed = static_cast<std::uint64_t>(preset.seed);
     set.side_m = static_cast<float>(preset.side_m);
+    set.height_coding = height_coding(preset);
     set.variants = patch.variants();
     set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
                                             (preset.side_m * preset.side_m));
@@ -34,7 +45,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
     set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
     const std::vector<double> seen = heights_seen(patch, set.canopy_m, options.threads);
-    const std::vector<char> common = common_blades(patch);
+    report_placing(seen, set.canopy_m, static_cast<int>(preset.layers));
     std::size_t images = 0;
     for (int k = 0; k < preset.levels; ++k)
         images += level_images(preset, k);
@@ -42,7 +53,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
         const StepTimer timer("layers and slices");
         base::Progress progress("layers and slices", images);
         const BakeFrame frame{preset, patch,           set.canopy_m, set.offset_range_m,
-                              seen,   common,          options.threads, &progress};
+                              seen,   options.threads, &progress};
         for (int k = 0; k < preset.levels; ++k)
             set.levels.push_back(bake_level(frame, k));
     }

@@ -22,6 +22,7 @@ Preset preset_of(const BakeCommandOptions& o) {
     for (const Override& change : o.overrides)
         override_preset(preset, change.option, change.key, change.value);
     preset.wrap = o.wrap;
+    preset.height_map = o.height_map.value_or(preset.height_map);
     check_preset(preset, path);
     return preset;
 }

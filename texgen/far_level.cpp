@@ -6,6 +6,7 @@
 
 #include "base/hash.h"
 #include "base/log.h"
+#include "texgen/height_map.h"
 #include "texgen/parallel.h"
 #include "texgen/placing.h"
 #include "texgen/texel_coder.h"
@@ -21,6 +22,7 @@ struct LevelPlan {
     int size = 0;
     double texel_m = 0;
     int layers = 0;
+    int images = 0; ///< of layers, a variant: 1 for a height map
     int slices = 0;
     int rows = 0;
 };
@@ -31,6 +33,7 @@ LevelPlan plan_level(const Preset& preset, double canopy_m, int level) {
     plan.size = static_cast<int>(preset.size) >> level;
     plan.texel_m = preset.side_m / plan.size;
     plan.layers = std::max(2, static_cast<int>(preset.layers) >> level);
+    plan.images = height_coding(preset) == shared::kHeightNone ? plan.layers : 1;
     // Further apart than the canopy is tall, slices would show as rows from above.
     plan.slices = std::max(4, static_cast<int>(preset.slices) >> level);
     plan.rows = slice_rows(canopy_m, plan.texel_m);
@@ -55,19 +58,24 @@ struct Task {
     int id_index = 0;
     int shape_index = 0;
     std::uint64_t salt = 0;
+    std::vector<Slab> column; ///< of a height map: all slabs, lowest first
 
     void run(const BakeFrame& frame, std::span<const Outline> outlines, SlabRaster& raster) const {
         const Coder coder(frame, frame.patch.variant(variant), slab);
-        TexelImage image{slab.width, slab.height, raster.draw(slab, outlines)};
+        TexelImage image{slab.width, slab.height,
+                         column.empty() ? raster.draw(slab, outlines)
+                                        : seen_from_above(column, outlines, raster)};
         const double ratio = alpha_ratio(image);
         for (std::size_t m = 0; m < array->mips.size(); ++m) {
             if (m > 0)
                 image = next_mip(image, salt + m);
             TexelImage shown = image;
             if (m > 0)
-                keep_alpha(shown, ratio, frame.common);
+                keep_alpha(shown, ratio);
             const std::size_t bytes = image.texels.size() * 4;
             std::uint8_t* data = array->mips[m].data();
+            if (!column.empty())
+                heights_for_coverage(shown, frame, variant);
             coder.code(shown, data + bytes * static_cast<std::size_t>(id_index),
                        data + bytes * static_cast<std::size_t>(shape_index));
         }
@@ -104,17 +112,20 @@ std::vector<Task> plan_tasks(const BakeFrame& frame, const LevelPlan& plan, gras
                             static_cast<std::uint64_t>(index));
     };
     for (int v = 0; v < frame.patch.variants(); ++v) {
-        for (int i = 0; i < plan.layers; ++i)
+        for (int i = 0; i < plan.images; ++i) {
             tasks.push_back({v, layer_slab(frame, plan, out, i), &out.layers,
-                             shared::layer_index(v, i, plan.layers, shared::kPlaneId),
-                             shared::layer_index(v, i, plan.layers, shared::kPlaneShape),
-                             salt(0, i)});
+                             shared::layer_index(v, i, plan.images, shared::kPlaneId),
+                             shared::layer_index(v, i, plan.images, shared::kPlaneShape),
+                             salt(0, i), {}});
+            for (int below = 0; plan.images == 1 && below < plan.layers; ++below)
+                tasks.back().column.push_back(layer_slab(frame, plan, out, below));
+        }
         for (const int axis : {shared::kAxisX, shared::kAxisZ})
             for (int i = 0; i < plan.slices; ++i)
                 tasks.push_back({v, slice_slab(frame, plan, axis, i), &out.slices,
                                  shared::slice_index(v, axis, i, plan.slices, shared::kPlaneId),
                                  shared::slice_index(v, axis, i, plan.slices, shared::kPlaneShape),
-                                 salt(1 + axis, i)});
+                                 salt(1 + axis, i), {}});
     }
     return tasks;
 }
@@ -140,7 +151,7 @@ double offset_range(const Preset& preset, const Patch& patch) {
 std::size_t level_images(const Preset& preset, int level) {
     const LevelPlan plan = plan_level(preset, 1, level);
     return static_cast<std::size_t>(preset.variants) *
-           static_cast<std::size_t>(plan.layers + 2 * plan.slices);
+           static_cast<std::size_t>(plan.images + 2 * plan.slices);
 }
 
 grass::FarLevel bake_level(const BakeFrame& frame, int level) {
@@ -152,7 +163,7 @@ grass::FarLevel bake_level(const BakeFrame& frame, int level) {
     const Placing placing = place_layers(frame.seen, frame.canopy_m, plan.layers);
     out.layer_edges = placing.edges;
     out.layer_heights = placing.heights;
-    out.layers = empty_array(plan.size, plan.size, variants * plan.layers * shared::kPlanes);
+    out.layers = empty_array(plan.size, plan.size, variants * plan.images * shared::kPlanes);
     out.slices = empty_array(plan.size, plan.rows, variants * 2 * plan.slices * shared::kPlanes);
     std::vector<std::vector<Outline>> outlines;
     for (int v = 0; v < variants; ++v)

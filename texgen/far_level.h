@@ -21,7 +21,6 @@ struct BakeFrame {
     double canopy_m = 0;
     double offset_range_m = 0;
     std::span<const double> seen; ///< heights that rays meet, rising: layers stand where they matter (placing.h)
-    std::span<const char> common; ///< of a variant's blades, by index: all variants share it
     int threads = 1;
     base::Progress* progress = nullptr; ///< advances by level_images() a level
 };

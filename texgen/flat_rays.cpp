@@ -50,6 +50,19 @@ FlatField::Ray FlatField::ray_of(glm::dvec3 origin, glm::dvec3 direction,
             -origin.y / direction.y, number};
 }
 
+double FlatField::top_of(std::uint8_t code) const {
+    return shared::decode_height(static_cast<float>(code) / 255.0f, set_.height_coding) * set_.canopy_m;
+}
+
+double FlatField::column_chance(std::uint8_t code, double y) const {
+    return code > 0 && top_of(code) >= y ? 1 : 0;
+}
+
+double FlatField::along_at(const std::uint8_t* id, double y) const {
+    const double along = shared::decode_along(id[3]);
+    return set_.height_coding == shared::kHeightNone ? along : along * y / top_of(id[0]);
+}
+
 std::optional<FlatHit> FlatField::cast(glm::dvec3 origin, glm::dvec3 direction,
                                        std::uint64_t ray) const {
     const Ray r = ray_of(origin, direction, ray);
@@ -87,12 +100,14 @@ template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit
             continue;
         const glm::dvec3 p = ray.origin + t * ray.direction;
         const auto plane = [&](int which) {
-            return texel_of(far_.layers, shared::layer_index(variant_, i, far_.layer_count, which),
+            return texel_of(far_.layers, grass::layer_image(set_, far_, variant_, i, which),
                             wrapped(p.x, texel, far_.layers.width),
                             wrapped(p.z, texel, far_.layers.width));
         };
         const std::uint8_t* id = plane(shared::kPlaneId);
-        const double odds = chance(id, plane(shared::kPlaneShape), -1, ray.direction);
+        const double odds = set_.height_coding == shared::kHeightNone
+                                ? chance(id, plane(shared::kPlaneShape), -1, ray.direction)
+                                : column_chance(id[0], y);
         if (odds <= 0)
             continue;
         const double lot = base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i));
@@ -100,7 +115,7 @@ template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit
         // Below 1 the share picks blades by seed (a step above 1 - seed shows it); above, it scales their coverage.
         const double share = lot < odds ? 1 - seed + 0.5 / 256 : lot / odds;
         if (share <= grass::kMaxShellShare &&
-            visit(FlatHit{t, y, shared::decode_along(id[3])}, share))
+            visit(FlatHit{t, y, along_at(id, y)}, share))
             return;
     }
 }

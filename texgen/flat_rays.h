@@ -53,6 +53,10 @@ private:
     /// Calls visit(hit, share) for every texel of a shell that the ray meets at that shell share or more, from the
     /// top down, until true.
     template<typename Visit> void walk_shells(const Ray& ray, const Visit& visit) const;
+    /// Of a height map (B1): height of the blade in metres; 1 where a shell at height y shows it; place along it there.
+    [[nodiscard]] double top_of(std::uint8_t code) const;
+    [[nodiscard]] double column_chance(std::uint8_t code, double y) const;
+    [[nodiscard]] double along_at(const std::uint8_t* id, double y) const;
     void shells(const Ray& ray, std::optional<FlatHit>& best) const;
     void slices(const Ray& ray, int axis, std::optional<FlatHit>& best) const;
 

@@ -124,7 +124,7 @@ void declare_overrides(CLI::App& app, BakeCommandOptions& o) {
 
 void declare_bake(CLI::App& app, BakeCommandOptions& o) {
     declare(app, "PRESET", "PRESET",
-            "species preset: a TOML file, or the name of a shipped one (meadow, lawn)",
+            "species preset: a TOML file, or the name of a shipped one (meadow, lawn, wheat, ...)",
             [&o](const std::string& text) {
                 if (text.empty())
                     throw usage("PRESET", text, "a file or the name of a shipped preset");
@@ -134,6 +134,14 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
                  "directory of the grass set; an earlier set there is replaced",
                  [&o](const fs::path& path) { o.output = directory_name(path); });
     declare_overrides(app, o);
+    declare(app, "--height-map", "linear|top",
+            "B1: one height map a variant instead of an image a layer, for little memory; top: finer near "
+            "the canopy's top",
+            [&o](const std::string& text) {
+                if (text != "linear" && text != "top")
+                    throw usage("--height-map", text, "linear or top");
+                o.height_map = text;
+            });
     declare(app, "--compression", "none|zstd|zstd:N|bc",
             "of the textures: zstd (level 3) as it stands, N up to 19 smaller and slower; bc: shape "
             "planes as BC5, a quarter less on the GPU",

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <numeric>
 
@@ -118,15 +117,6 @@ std::vector<BladeRecord> grow_variant(const Preset& preset, const Roots& roots, 
 }
 
 } // namespace
-
-std::vector<char> common_blades(const Patch& patch) {
-    std::vector<char> common(patch.variant(0).size(), 1);
-    for (int v = 1; v < patch.variants(); ++v)
-        for (std::size_t b = 0; b < common.size(); ++b)
-            if (std::memcmp(&patch.variant(0)[b], &patch.variant(v)[b], sizeof(BladeRecord)) != 0)
-                common[b] = 0;
-    return common;
-}
 
 RestCurve rest_curve(double length, double lean, double bend, double azimuth) {
     // Both legs equal and along the arc's end tangents: the parabola nearest to the arc.

@@ -29,9 +29,6 @@ struct Patch {
 /// the same, at the same index, in all. Depends on the preset alone, not on the number of threads.
 [[nodiscard]] Patch generate_patch(const Preset& preset, int threads);
 
-/// For every index of a variant's blades: the same blade stands there in all variants.
-[[nodiscard]] std::vector<char> common_blades(const Patch& patch);
-
 /// Rest pose of a blade: a quadratic Bezier near the circular arc that starts `lean` from the
 /// vertical and turns by `bend` (radians) towards `azimuth`, its curve exactly `length` long.
 struct RestCurve {

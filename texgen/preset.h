@@ -75,6 +75,9 @@ struct Preset {
     std::int64_t slices = 16; ///< vertical slices an axis and patch side at level 0
     std::int64_t levels = 4;  ///< each halves size, layers and slices
 
+    /// B1: "linear" or "top" (top-weighted): one height map a variant instead of an image a layer. "none" otherwise.
+    std::string height_map = "none";
+
     /// False: blades that cross the patch's edge are cut, and the set shows its joints. For tests.
     bool wrap = true;
 
@@ -108,6 +111,9 @@ void check_preset(const Preset& preset, const std::filesystem::path& origin);
 /// Width of the rim inside which all variants are the same: reach plus a margin for the blades' own
 /// neighbours.
 [[nodiscard]] double border_width(const Preset& preset);
+
+/// kHeightNone, kHeightLinear or kHeightTop.
+[[nodiscard]] int height_coding(const Preset& preset);
 
 [[nodiscard]] shared::GrassAppearance appearance(const Species& species);
 

@@ -55,6 +55,8 @@ void check_preset(const Preset& preset, const fs::path& origin) {
     if (!std::has_single_bit(static_cast<std::uint64_t>(preset.size)))
         refuse(ExitCode::kBadInput, "texture.size", std::to_string(preset.size),
                "a power of two from 32 to 2048");
+    if (preset.height_map != "none" && height_coding(preset) == shared::kHeightNone)
+        refuse(ExitCode::kBadInput, "texture.height_map", preset.height_map, "none, linear or top");
     if (preset.size >> (preset.levels - 1) < 16)
         refuse(ExitCode::kBadInput, "texture.levels", std::to_string(preset.levels),
                "at least 16 texels a side at the last level");
@@ -87,7 +89,7 @@ void check_preset(const Preset& preset, const fs::path& origin) {
                                0.45 * preset.side_m - border_width(preset)));
     const double planes = static_cast<double>(preset.variants * shared::kPlanes);
     const double size = static_cast<double>(preset.size);
-    const double layer_images = planes * static_cast<double>(preset.layers);
+    const double layer_images = planes * static_cast<double>(height_coding(preset) == shared::kHeightNone ? preset.layers : 1);
     const double slice_images = planes * 2 * static_cast<double>(preset.slices);
     const double rows = preset.longest_m() / preset.side_m * size + 4;
     const double bytes =
@@ -129,6 +131,12 @@ std::vector<std::size_t> species_counts(const Preset& preset) {
         given = until;
     }
     return counts;
+}
+
+int height_coding(const Preset& preset) {
+    return preset.height_map == "linear" ? shared::kHeightLinear
+           : preset.height_map == "top"  ? shared::kHeightTop
+                                         : shared::kHeightNone;
 }
 
 shared::GrassAppearance appearance(const Species& species) {

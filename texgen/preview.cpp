@@ -126,8 +126,8 @@ Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int
     std::vector<double> clear(canvas.texels.size(), 1.0);
     for (int i = far.layer_count - 1; i >= 0; --i) {
         const Image image(far.layers,
-                          shared::layer_index(variant, i, far.layer_count, shared::kPlaneId),
-                          shared::layer_index(variant, i, far.layer_count, shared::kPlaneShape), 0);
+                          grass::layer_image(set, far, variant, i, shared::kPlaneId),
+                          grass::layer_image(set, far, variant, i, shared::kPlaneShape), 0);
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
                 const auto [colour, coverage] =
@@ -186,8 +186,8 @@ Canvas tiling(const grass::GrassSet& set, const Shader& shader) {
 Canvas mip_view(const grass::GrassSet& set, const Shader& shader, int mip) {
     const grass::FarLevel& far = set.levels.front();
     const int layer = far.layer_count / 2;
-    const Image image(far.layers, shared::layer_index(0, layer, far.layer_count, shared::kPlaneId),
-                      shared::layer_index(0, layer, far.layer_count, shared::kPlaneShape), mip);
+    const Image image(far.layers, grass::layer_image(set, far, 0, layer, shared::kPlaneId),
+                      grass::layer_image(set, far, 0, layer, shared::kPlaneShape), mip);
     Canvas canvas(std::max(1, image.width / 2), std::max(1, image.height / 2), dvec3(0));
     for (int y = 0; y < canvas.height; ++y)
         for (int x = 0; x < canvas.width; ++x) {

@@ -61,6 +61,7 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                          {"offset_range_m", decimal(set.offset_range_m)},
                          {"variants", set.variants},
                          {"density_per_m2", decimal(set.density_per_m2)},
+                         {"height_coding", set.height_coding},
                          {"blades", set.blades.size()}};
     for (const grass::Species& species : set.species)
         root["species"].push_back({{"name", species.name},

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <tuple>
 
 namespace sward::texgen {
 namespace {
@@ -14,33 +16,12 @@ std::uint8_t unorm8(double value) {
 constexpr double kOpaque = 0.506; // above a half after any rounding
 constexpr double kThin = 0.494;
 
-/// The covered texels of one blade in an image.
-struct Share {
-    std::int32_t blade = -1;
-    bool later = false; ///< not common to all variants
-    std::vector<std::uint32_t> texels;
-    double coverage = 0;
-};
-
-std::vector<Share> shares_of(const TexelImage& image, std::span<const char> common) {
-    std::vector<Share> shares(common.size());
-    for (std::uint32_t t = 0; t < image.texels.size(); ++t) {
-        const Texel& texel = image.texels[t];
-        if (texel.blade < 0 || texel.coverage <= 0)
-            continue;
-        Share& share = shares[static_cast<std::size_t>(texel.blade)];
-        share.blade = texel.blade;
-        share.texels.push_back(t);
-        share.coverage += texel.coverage;
-    }
-    std::erase_if(shares, [](const Share& share) { return share.blade < 0; });
-    for (Share& share : shares)
-        share.later = !common[static_cast<std::size_t>(share.blade)];
-    std::ranges::stable_sort(shares, {}, &Share::later);
-    return shares;
-}
-
 } // namespace
+
+double lot_of(std::int32_t blade) {
+    const double turned = blade * (std::numbers::phi - 1);
+    return turned - std::floor(turned);
+}
 
 double alpha_ratio(const TexelImage& image) {
     double sum = 0, half = 0;
@@ -48,34 +29,43 @@ double alpha_ratio(const TexelImage& image) {
         sum += texel.coverage;
         half += texel.coverage >= 0.5 ? 1 : 0;
     }
-    return sum > 0 ? std::clamp(half / sum, 0.25, 1.5) : 1;
+    return sum > 0 ? std::min(half / sum, 1.5) : 1;
 }
 
-void keep_alpha(TexelImage& image, double ratio, std::span<const char> common) {
-    double owed = 0; // texels to be opaque that no blade has given yet
-    double total = 0, opaque = 0;
-    std::vector<std::uint32_t> thin;
-    for (const Share& share : shares_of(image, common)) {
-        total += share.coverage;
-        owed += ratio * share.coverage;
-        const auto texels = static_cast<double>(share.texels.size());
-        if (owed < texels / 2) {
-            thin.insert(thin.end(), share.texels.begin(), share.texels.end());
+void keep_alpha(TexelImage& image, double ratio) {
+    struct Candidate {
+        double margin;
+        std::uint32_t texel;
+    };
+    std::vector<Candidate> candidates;
+    double total = 0;
+    for (std::uint32_t t = 0; t < image.texels.size(); ++t) {
+        const Texel& texel = image.texels[t];
+        if (texel.blade < 0 || texel.coverage <= 0)
             continue;
-        }
-        owed -= texels;
-        for (const std::uint32_t t : share.texels) {
-            float& coverage = image.texels[t].coverage;
-            coverage = static_cast<float>(std::min(1.0, kOpaque + kThin * coverage));
-            opaque += coverage;
+        total += texel.coverage;
+        candidates.push_back({texel.coverage * ratio - lot_of(texel.blade), t});
+    }
+    // As many as are asked for: those whose coverage exceeds their blade's number, give or take a few.
+    const auto opaque = std::min(candidates.size(), static_cast<std::size_t>(std::llround(total * ratio)));
+    std::ranges::nth_element(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(opaque), {},
+                             [](const Candidate& c) { return std::tuple(-c.margin, c.texel); });
+    double shown = 0, thin = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        float& coverage = image.texels[candidates[i].texel].coverage;
+        const double chance = std::min(0.999, coverage * ratio);
+        const double if_opaque = std::min(1.0, kOpaque + kThin * coverage);
+        if (i < opaque) {
+            coverage = static_cast<float>(if_opaque);
+            shown += coverage;
+        } else { // so that a texel of this coverage keeps it in the mean
+            coverage = static_cast<float>(std::clamp((coverage - chance * if_opaque) / (1 - chance), 0.0, kThin));
+            thin += coverage;
         }
     }
-    double rest = 0;
-    for (const std::uint32_t t : thin)
-        rest += image.texels[t].coverage;
-    const double scale = rest > 0 ? std::max(0.0, total - opaque) / rest : 0;
-    for (const std::uint32_t t : thin) {
-        float& coverage = image.texels[t].coverage;
+    const double scale = thin > 0 ? std::max(0.0, total - shown) / thin : 0;
+    for (std::size_t i = opaque; i < candidates.size(); ++i) {
+        float& coverage = image.texels[candidates[i].texel].coverage;
         coverage = static_cast<float>(std::min(kThin, coverage * scale));
     }
 }

@@ -7,13 +7,17 @@
 
 namespace sward::texgen {
 
+/// Number of a blade in [0, 1): golden-ratio steps, so that any share of the blades is met evenly; the same in all
+/// variants for the blades of their common border.
+[[nodiscard]] double lot_of(std::int32_t blade);
+
 /// Texels at least half covered over mean coverage: what an alpha test sees of an image.
 [[nodiscard]] double alpha_ratio(const TexelImage& image);
 
-/// A mip that keeps what an alpha test sees (B5): the texels of some blades become more than half opaque, whole blades at a
-/// time, as many as `ratio` asks for, and the others thinner, so that the image's mean coverage stays.
-/// `common`: blades that all variants share; they are decided first, so that variants agree on their border.
-void keep_alpha(TexelImage& image, double ratio, std::span<const char> common);
+/// A mip that keeps what an alpha test sees (B5): a blade's texels become more than half opaque where their coverage exceeds the
+/// blade's own number, as many as `ratio` asks for, so that representative blades stay whole and none is averaged
+/// into grey; the others become thinner. The mean coverage stays, of the image and of texels of any coverage.
+void keep_alpha(TexelImage& image, double ratio);
 
 /// Codes the images of one slab (shaders/shared/grass_layout.h).
 class Coder {

@@ -24,7 +24,7 @@ struct FrameConstants {
     vec4 patch_grid;  // offset of the anchor in its patch x, z (m); side (m); canopy (m)
     ivec4 patch_tile; // tile of the anchor x, z; variants; far levels
     vec4 grass;       // offset range (m), density scale, 1 where the ground takes over from the shells, anchor above the datum (m)
-    ivec4 mode;       // hand-over mode; forced far level or -1; 1 when the far tier stands alone; unused
+    ivec4 mode;       // hand-over mode; forced far level or -1; 1 when the far tier stands alone; height coding of the layers (B1)
     vec4 handover;    // band from blades to far level 0: start, end (m); width correction: wmin, wspan (pixels)
     vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; mean blade width (m)
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)

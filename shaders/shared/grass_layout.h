@@ -18,6 +18,20 @@ SHARED_CONST int kPlaneShape = 1;
 SHARED_CONST int kAxisX = 0; // slices across x: planes x = const
 SHARED_CONST int kAxisZ = 1;
 
+// B1: one image stands for all layers, and R of its id plane is the height of the blade seen from above, not coverage. Linear, or
+// top-weighted: finer near the canopy's top, where shells are seen.
+SHARED_CONST int kHeightNone = 0; // an image a layer
+SHARED_CONST int kHeightLinear = 1;
+SHARED_CONST int kHeightTop = 2;
+
+// Height over the canopy's that a code in [0, 1] stands for, and back.
+SHARED_FN float decode_height(float code, int coding) {
+    return coding == kHeightTop ? 1.0f - (1.0f - code) * (1.0f - code) : code;
+}
+SHARED_FN float encode_height(float height, int coding) {
+    return coding == kHeightTop ? 1.0f - sqrt(max(1.0f - height, 0.0f)) : height;
+}
+
 // Array index of layer `layer` (0 lowest) of `count`.
 SHARED_FN int layer_index(int variant, int layer, int count, int plane) {
     return (variant * count + layer) * kPlanes + plane;

@@ -79,6 +79,14 @@ void main() {
     vec4 id = textureLod(far_images, texel.uv, texel.mip);
     vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
     int code = int(id.a * 255.0 + 0.5);
+    float along = decode_along(code);
+#ifndef SLICES
+    if (frame.mode.w != kHeightNone && id.r > 0.0) { // B1: the blade stands in every shell below its top
+        float top = decode_height(id.r, frame.mode.w) * frame.patch_grid.w;
+        along *= rest.y / top;
+        id.r = top >= rest.y ? 1.0 : 0.0;
+    }
+#endif
     vec2 offset = decode_offset(shape.ba, frame.grass.x);
     vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope.xy, offset), rest.z + offset.y);
     float rank = unorm8_to_unit(id.g);
@@ -105,5 +113,5 @@ void main() {
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, decode_along(code), clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), haze));
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, along, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), haze));
 }

@@ -83,6 +83,7 @@ struct GrassSet {
     float offset_range_m = 0;    ///< range of the root offsets in the shape plane
     int variants = 0;            ///< agree along their edges: any may stand beside any
     float density_per_m2 = 0;    ///< blades
+    int height_coding = shared::kHeightNone; ///< else the layers of a level are one height map a variant (B1)
     std::vector<shared::BladeRecord> blades;    ///< variant-major; inside a variant by rising rank
     std::vector<std::uint32_t> variant_begin;   ///< variants + 1 offsets into blades
     std::vector<FarLevel> levels;               ///< at least 1
@@ -90,6 +91,17 @@ struct GrassSet {
     FarLight far_light;                         ///< its light, at the same elevations
     std::vector<Species> species;               ///< 1 to shared::kMaxSpecies; a blade's shape.w and a texel's A name one
 };
+
+/// Images of a level's layers that a variant has, planes not counted.
+[[nodiscard]] inline int layer_images(const GrassSet& set, const FarLevel& level) {
+    return set.height_coding == shared::kHeightNone ? level.layer_count : 1;
+}
+
+/// Array index of the image that layer `layer` is drawn from.
+[[nodiscard]] inline int layer_image(const GrassSet& set, const FarLevel& level, int variant, int layer, int plane) {
+    const int images = layer_images(set, level);
+    return shared::layer_index(variant, images == 1 ? 0 : layer, images, plane);
+}
 
 /// Reads a set's directory. Every file's SHA-256 is checked against set.json before it is parsed (volume.vdb is not read).
 /// Throws Error: kIo missing, kBadInput damaged or of another format version, kOverLimit.

@@ -161,6 +161,7 @@ void read_head(const SetJson& set, GrassSet& out) {
     out.offset_range_m = set.real(root, "offset_range_m", 0.0001, 1000);
     out.variants = set.whole(root, "variants", 1, kMaxVariants);
     out.density_per_m2 = set.real(root, "density_per_m2", 0, 1e6);
+    out.height_coding = set.whole(root, "height_coding", shared::kHeightNone, shared::kHeightTop);
     for (const json& entry : set.array(root, "species", 1, shared::kMaxSpecies)) {
         Species species;
         species.name = set.text(entry, "name");
@@ -287,7 +288,7 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
         // Names are ours, not the file's: nothing outside the directory can be asked for.
         const bool block = entry.contains("layers_shape");
         read_family(set, directory,
-                    {layers_file(k), layers_shape_file(k), out.variants * level.layer_count},
+                    {layers_file(k), layers_shape_file(k), out.variants * layer_images(out, level)},
                     level.layers, block ? &level.layers_shape : nullptr);
         read_family(set, directory,
                     {slices_file(k), slices_shape_file(k), out.variants * 2 * level.slice_count},

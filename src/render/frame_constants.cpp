@@ -103,6 +103,7 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
         out.shell_share[i] = shells::shell_share_at(set, elevation);
         out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
     }
+    out.mode.w = set.height_coding;
     clipmap.describe(out, anchor);
     for (std::size_t i = 0; i < set.species.size(); ++i) {
         out.looks[i] = set.species[i].look;

@@ -107,7 +107,8 @@ struct Place {
 };
 
 void add_shells(std::vector<shared::FarInstance>& out, const Place& at, const grass::GrassSet& set, const FarQuery& query) {
-    const int count = set.levels[static_cast<std::size_t>(at.level)].layer_count;
+    const grass::FarLevel& level = set.levels[static_cast<std::size_t>(at.level)];
+    const int count = level.layer_count;
     const glm::vec2 low = at.block.corner - glm::vec2(query.lod_eye.x, query.lod_eye.z);
     const glm::vec2 high = low + side_of(at.block);
     const Cells x = cells_within(low.x, at.block.cell, {low.y, high.y}, at.within);
@@ -116,9 +117,9 @@ void add_shells(std::vector<shared::FarInstance>& out, const Place& at, const gr
         return;
     }
     for (int i = count - 1; i >= 0; --i) {
-        const float y = set.levels[static_cast<std::size_t>(at.level)].layer_heights[static_cast<std::size_t>(i)];
+        const float y = level.layer_heights[static_cast<std::size_t>(i)];
         out.push_back({{y, at.index, x.packed(), z.packed()},
-                       {shared::layer_index(0, i, count, shared::kPlaneId), count * shared::kPlanes, 0, at.level}});
+                       {grass::layer_image(set, level, 0, i, shared::kPlaneId), grass::layer_images(set, level) * shared::kPlanes, 0, at.level}});
     }
 }
 

@@ -14,18 +14,8 @@
 namespace sward::texgen {
 namespace {
 
-namespace fs = std::filesystem;
 using base::ExitCode;
 using shared::BladeRecord;
-
-TEST(Preset, ShippedOnesLoad) {
-    for (const char* name : {"meadow", "lawn"}) {
-        const Preset preset = load_preset(fs::path(SWARD_SOURCE_DIR) / "texgen/presets" /
-                                          (std::string(name) + ".toml"));
-        EXPECT_EQ(preset.name, name);
-        EXPECT_LE(border_width(preset), preset.side_m / 4);
-    }
-}
 
 TEST(Preset, RefusesNonsenseWithKeyValueAndRange) {
     struct Case {
