@@ -85,14 +85,14 @@ Scene load_scene(const std::filesystem::path& file) {
         read_grass(*grass, scene.grass);
     if (sun)
         read_sun(*sun, scene.sun);
-    if (wind)
-        read_wind(*wind, scene.wind);
     if (cameras)
         for (const auto& [name, table] : cameras->named_tables(kMostNamed))
             scene.cameras[name] = read_camera(table);
     if (paths)
         for (const auto& [name, table] : paths->named_tables(kMostNamed))
             scene.paths[name] = read_path(table);
+    if (wind)
+        read_wind(*wind, scene.paths, scene.wind);
     for (const TableReader& table : objects)
         scene.objects.push_back(read_object(table, scene.paths));
     if (lod)
