@@ -16,6 +16,10 @@ struct FluidGrid {
     const gl::Buffer* v = nullptr; ///< float a cell: velocity to the south (m/s) at its north face
     const gl::Buffer* solid = nullptr;          ///< uint a cell: 0 air, else solid
     const gl::Buffer* solid_velocity = nullptr; ///< vec2 a cell: velocity (m/s) of the solid that fills it
+    /// float a cell: divergence (1/s) that the projection leaves there, 0 at first. A wind in the plane that flows out of a
+    /// rotor's downwash or into a cyclone's updraft is a pure gradient: as a force the projection would take all of it
+    /// away again. apply_forces owns the content, which keeps its storage place from step to step.
+    const gl::Buffer* inflow = nullptr;
     int cells = 0;
     double cell_m = 0;
     glm::ivec2 first_cell{0}; ///< world index of the logical cell (0, 0), the north-west one
@@ -38,7 +42,8 @@ public:
     /// (`moved` says that the window shows other cells than at the last call, or that the buffers are fresh): the
     /// solver then keeps its coarse levels.
     virtual bool fill_solids(const FluidGrid& grid, bool moved) = 0;
-    /// Adds this step's pushes to `grid.u` and `grid.v` (m/s, that is force times grid.step_s), before the projection.
+    /// Adds this step's pushes to `grid.u` and `grid.v` (m/s, that is force times grid.step_s), before the projection,
+    /// and sets `grid.inflow` (whose sum over the window is 0 as long as no source is cut by its rim).
     virtual void apply_forces(const FluidGrid& grid) = 0;
     /// The highest speed (m/s) that the present forces and solids aim for. The solver lets the air reach it; what is
     /// faster than that and the ambient wind explain is braked within a second.
