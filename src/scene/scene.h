@@ -89,6 +89,8 @@ struct Scene {
 /// Reads a scene file (TOML, docs/scene.md). Throws Error that names file, line, key, found and expected; an unknown key
 /// names the nearest known one. Files that the scene names are not opened here.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
+/// The same from a text; `file` is where it stands or will, for messages and the names in it.
+[[nodiscard]] Scene parse_scene(const std::string& text, const std::filesystem::path& file);
 
 /// "x,y,z,yaw,pitch" (y above the ground) or "abs:x,y,z,yaw,pitch" (y above the datum), in the C locale whatever the
 /// environment says. Throws Error(kUsage) naming `option`. Ranges as in scene files.

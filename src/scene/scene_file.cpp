@@ -65,7 +65,11 @@ toml::table parse(const std::string& text, const std::filesystem::path& file) {
 } // namespace
 
 Scene load_scene(const std::filesystem::path& file) {
-    const toml::table document = parse(base::read_text(file, kLimit), file);
+    return parse_scene(base::read_text(file, kLimit), file);
+}
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
+    const toml::table document = parse(text, file);
     Scene scene;
     scene.file = file;
     TableReader root(document, file, "");

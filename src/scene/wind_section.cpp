@@ -19,7 +19,7 @@ constexpr std::size_t kMostObstacles = 4096;
 WindArrow read_arrow(TableReader& table) {
     WindArrow arrow;
     table.name("id", arrow.id);
-    table.name("parent", arrow.parent);
+    table.name_or_none("parent", arrow.parent);
     table.place("root", arrow.root);
     table.place("tip", arrow.tip);
     table.number("strength_ms", arrow.strength_ms, {0, 300, "m/s"});
