@@ -44,6 +44,12 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const glm::vec4& wind) {
     return parts;
 }
 
+/// Sunlight, and where the mean wind turns an upright blade.
+struct Air {
+    const shared::Light& light;
+    glm::vec3 turn;
+};
+
 /// Share of a part that the eye sees through the canopy above it, and of its width that faces the eye.
 float visible(const Part& part, float extinction, const glm::vec3& to_eye) {
     const float along = glm::dot(part.tangent, to_eye);
@@ -66,11 +72,12 @@ float fit_extinction(const std::vector<Part>& parts, float mean_height, const gl
     return 0.5f * (low + high);
 }
 
-glm::vec4 radiance(const std::vector<Part>& parts, const grass::GrassSet& set, const shared::Light& light, float azimuth, float sine) {
+glm::vec4 radiance(const std::vector<Part>& parts, const grass::GrassSet& set, const Air& air, float azimuth, float sine) {
     const float cosine = std::sqrt(1 - sine * sine);
-    const glm::vec2 sun = glm::normalize(glm::vec2(light.to_sun.x, light.to_sun.z) + glm::vec2(1e-5f, 0));
+    const glm::vec2 sun = glm::normalize(glm::vec2(air.light.to_sun.x, air.light.to_sun.z) + glm::vec2(1e-5f, 0));
     const glm::vec2 flat(sun.x * std::cos(azimuth) - sun.y * std::sin(azimuth), sun.x * std::sin(azimuth) + sun.y * std::cos(azimuth));
     const glm::vec3 to_eye(flat.x * cosine, sine, flat.y * cosine);
+    const shared::Light light = shared::light_in_sway(air.light, shared::canopy_sway(set.appearance, air.turn, air.light.to_sun, to_eye));
     const glm::vec2 row = far_row_at(set, sine);
     const float extinction = fit_extinction(parts, row.y, to_eye);
     glm::vec3 sum(0);
@@ -133,10 +140,12 @@ void FarAppearance::update(const shared::Light& light, const shared::WindField& 
     light_ = light;
     wind_ = wind.mean;
     const std::vector<Part> parts = parts_of(set_, wind_);
+    const float canopy = set_.canopy_m;
+    const Air air{light, shared::bend_turn(shared::kSwayHeight * canopy, canopy, {wind_.x, wind_.y}, wind_.w)};
     std::vector<glm::vec4> texels;
     for (int e = 0; e < kElevations; ++e) {
         for (int a = 0; a < kAzimuths; ++a) {
-            texels.push_back(radiance(parts, set_, light, shared::kPi * static_cast<float>(a) / (kAzimuths - 1),
+            texels.push_back(radiance(parts, set_, air, shared::kPi * static_cast<float>(a) / (kAzimuths - 1),
                                       static_cast<float>(e) / (kElevations - 1)));
         }
     }
