@@ -61,6 +61,7 @@ struct ViewRays {
     int end = 0;
     int count = 0;     ///< of all batches of this view: variants in blocks of consecutive rays
     int shade_every = 1; ///< light costs more than rays
+    double lean = 0;     ///< bend intensity: what it does to the canopy's light (canopy_sway)
 };
 [[nodiscard]] ViewSums cast_view(const Canopy& canopy, const std::vector<Caster>& casters, const ViewRays& rays);
 

@@ -61,13 +61,13 @@ std::vector<ViewSums> cast_views(const Canopy& canopy, double lean, std::vector<
 }
 
 /// Views of a leaning canopy: as many rays as it takes to meet enough of it.
-std::vector<ViewRays> leaning_views(const FarTable& table) {
+std::vector<ViewRays> leaning_views(const FarTable& table, double lean) {
     std::vector<ViewRays> views;
     for (const float azimuth : table.light.lean_azimuths_deg)
         for (const grass::FarRow& row : table.rows) {
             const double needed = kLeaningHits / std::max<double>(row.coverage, 1e-3);
             const int count = 2 * static_cast<int>(std::min<double>(needed, kLeaningRays) / 2);
-            views.push_back({row.elevation_deg, azimuth, 0, 0, count, 1});
+            views.push_back({row.elevation_deg, azimuth, 0, 0, count, 1, lean});
         }
     return views;
 }
@@ -92,7 +92,7 @@ FarTable far_table(const Canopy& canopy, int threads) {
     FarTable table;
     std::vector<ViewRays> at_rest;
     for (const double elevation : kElevationsDeg)
-        at_rest.push_back({elevation, std::nullopt, 0, 0, kRays, elevation < 40 ? 4 : 1}); // low views hit often
+        at_rest.push_back({elevation, std::nullopt, 0, 0, kRays, elevation < 40 ? 4 : 1, 0}); // low views hit often
     const std::vector<ViewSums> rest = cast_views(canopy, 0, at_rest, threads);
     for (std::size_t i = 0; i < rest.size(); ++i)
         table.rows.push_back(row_of(rest[i], i));
@@ -100,10 +100,10 @@ FarTable far_table(const Canopy& canopy, int threads) {
     grass::FarLight& light = table.light;
     light = light_axes({kElevationsDeg.begin(), kElevationsDeg.end()});
     const std::size_t azimuths = light.lean_azimuths_deg.size();
-    const std::vector<ViewRays> leaning = leaning_views(table);
     for (std::size_t lean = 0; lean < light.leans.size(); ++lean) {
         const std::vector<ViewSums> sums =
-            lean == 0 ? rest : cast_views(canopy, light.leans[lean], leaning, threads);
+            lean == 0 ? rest
+                      : cast_views(canopy, light.leans[lean], leaning_views(table, light.leans[lean]), threads);
         for (std::size_t a = 0; a < azimuths; ++a)
             for (std::size_t e = 0; e < rest.size(); ++e) // at rest every azimuth sees the same
                 store_view(sums[lean == 0 ? e : a * rest.size() + e], lean == 0 || a == 0 || a + 1 == azimuths,

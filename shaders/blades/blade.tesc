@@ -8,6 +8,7 @@ in BladeVertex {
     vec4 root;
     vec4 v1;
     vec4 v2;
+    vec4 sway;
     vec4 rest;
     vec4 ground;
 } blade_in[];
@@ -16,6 +17,7 @@ out BladeControl {
     vec4 root;
     vec4 v1;
     vec4 v2;
+    vec4 sway;
     vec4 rest;
     vec4 ground;
 } blade_out[];
@@ -24,6 +26,7 @@ void main() {
     blade_out[gl_InvocationID].root = blade_in[0].root;
     blade_out[gl_InvocationID].v1 = blade_in[0].v1;
     blade_out[gl_InvocationID].v2 = blade_in[0].v2;
+    blade_out[gl_InvocationID].sway = blade_in[0].sway;
     blade_out[gl_InvocationID].rest = blade_in[0].rest;
     blade_out[gl_InvocationID].ground = blade_in[0].ground;
 

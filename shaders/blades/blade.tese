@@ -9,12 +9,14 @@ in BladeControl {
     vec4 root;
     vec4 v1;
     vec4 v2;
+    vec4 sway;
     vec4 rest;
     vec4 ground;
 } blade_in[];
 
 out vec3 world;
 out vec3 tangent;
+out vec2 sway;
 out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
@@ -38,6 +40,7 @@ void main() {
     world = centre + t1 * (half_width * (2.0 * t - 1.0));
     world += n * (half_width * (0.5 - abs(u - 0.5)) * (1.0 - v));
     tangent = t0;
+    sway = blade_in[0].sway.xy;
     normal = n;
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);

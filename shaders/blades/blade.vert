@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: survivors of the cull pass. Out: a posed blade (J1, W3, B3) for the tessellator.
+// In: survivors of the cull pass. Out: a posed blade (J1, W3, B3, W6's flutter) for the tessellator.
 #include "lib/blade_place.glsl"
-#include "lib/wind.glsl"
-#include "shared/bend.h"
+#include "lib/sway.glsl"
 
 layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
 
@@ -10,6 +9,7 @@ out BladeVertex {
     vec4 root;  // world; w: distance from the place that tier selection measures from
     vec4 v1;    // relative to the root; w: half width
     vec4 v2;    // relative to the root; w: facing
+    vec4 sway;  // sway_at
     vec4 rest;  // rest heights of v1 and v2 over the canopy's; rank; seed
     vec4 ground; // cosine ground to sun; tint; species
 } blade_out;
@@ -23,11 +23,17 @@ void main() {
     float canopy = frame.patch_grid.w;
     vec3 v1 = blade.v1.xyz;
     vec3 v2 = blade.v2.xyz;
+    vec2 wind = wind_at(root.xz);
     float shell = pose_share(blade.root.z, from_eye, frame.pose_band.xy);
-    pose_blade(v1, v2, vec4(blade.shape.y, canopy, frame.wind.mean.w, shell), wind_at(root.xz));
+    pose_blade(v1, v2, vec4(blade.shape.y, canopy, frame.wind.mean.w, shell), wind);
+    // Gone where the pose has become the shell image's
+    float amplitude = (1.0 - shell) * flutter_amplitude(length(wind), frame.wind.mean.w);
+    vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
+    flutter_blade(v1, v2, blade.shape.y, flutter.xy, wind);
+    blade_out.sway = sway_at(root, wind);
     blade_out.root = vec4(root, from_eye);
     blade_out.v1 = vec4(v1, blade.v1.w);
-    blade_out.v2 = vec4(v2, blade.shape.x);
+    blade_out.v2 = vec4(v2, blade.shape.x + flutter.z);
     blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
     blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, 0.0);
     gl_Position = vec4(0.0);

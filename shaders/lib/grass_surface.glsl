@@ -3,6 +3,8 @@
 #include "lib/frame.glsl"
 #include "lib/output.glsl"
 
+in vec2 sway; // canopy_sway at the blade
+
 // What a tier knows of a fragment's blade.
 struct GrassSample {
     vec3 world;
@@ -24,6 +26,6 @@ void write_grass(GrassSample s) {
     vec3 to_eye = -from_eye / distance_m;
     vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
     GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
-    vec3 radiance = shade_grass(frame.looks[s.species], frame.light, point, to_eye) * s.haze.a + s.haze.rgb;
+    vec3 radiance = shade_grass(frame.looks[s.species], light_in_sway(frame.light, sway), point, to_eye) * s.haze.a + s.haze.rgb;
     write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
 }

@@ -3,6 +3,7 @@
 // pose that joins them in the hand-over band.
 #ifndef SWARD_SHARED_BEND_H
 #define SWARD_SHARED_BEND_H
+#include "shared/hash.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -18,9 +19,17 @@ SHARED_FN vec2 bend_arc(float s, float stem, float intensity) {
     return vec2(sin(ks) / k, (1.0f - cos(ks)) / k);
 }
 
-// Wind speed (m/s) to bend intensity. Saturates: blades reconfigure, they do not flatten (W6). `response` is 1 / (m/s).
+// Load of the wind on grass over its stiffness (Cauchy number, scaled): `response` is 1 / (m/s). The square is drag's.
+SHARED_FN float wind_load(float speed_ms, float response) {
+    float x = speed_ms * response;
+    return x * x;
+}
+
+// Wind speed (m/s) to bend intensity (W6). An elastic fibre clamped in a cross flow turns its tip by 90 degrees * I; drag on what it
+// still holds against the wind is all that bends it further, so I starts as 2/3 of the load and nears 1 as load^(-2/3): blades
+// reconfigure, they do not flatten. Within 0.06 of the fibre's own curve, integrated (tests). In [0, 1): a canopy keeps 2 / pi of its height.
 SHARED_FN float bend_intensity(float speed_ms, float response) {
-    return 0.72f * (1.0f - exp(-speed_ms * response));
+    return 1.0f - pow(1.0f + wind_load(speed_ms, response), -2.0f / 3.0f);
 }
 
 // Displacement of the point at rest height y in a canopy of height `canopy` under the wind (m/s): the far tier's warp.
@@ -46,17 +55,22 @@ SHARED_FN vec3 bend_turn(float y, float canopy, vec2 wind, float response) {
     return vec3(side.x, cos(angle), side.y);
 }
 
-// W3 for a point at rest height y of a stem of length L: offset (1 - lambda) T, T = F (Vx y^2, -|V| y^2, Vz y^2). As printed,
-// (1 - lambda) T + lambda P' shrinks a calm blade to lambda of its height; here P' keeps its whole weight. F is chosen so
-// that a stem's tip moves as far to the side as B3 moves it for the same intensity, to first order: both lean alike.
-SHARED_FN vec3 grouped_offset(float y, float stem, vec2 wind, float response) {
+// Rest height over the canopy's of what one sees of grass, on average: where its bend stands for the canopy's.
+SHARED_CONST float kSwayHeight = 0.65f;
+
+// W3 for a point at rest height y of a stem: offset (1 - lambda) T, T = F (Vx y^2, -|V| y^2, Vz y^2). As printed,
+// (1 - lambda) T + lambda P' shrinks a calm blade to lambda of its height; here P' keeps its whole weight. F, one number for the
+// shift and one for the fall, puts an upright stem's tip where B3 puts it in the canopy: both lean alike in every wind.
+SHARED_FN vec3 grouped_offset(float y, vec2 stem_canopy, vec2 wind, float response) {
     float speed = length(wind);
     if (speed < 1e-4f) {
         return vec3(0.0f, 0.0f, 0.0f);
     }
-    float reach = 0.25f * kPi * bend_intensity(speed, response) / stem * y * y;
-    vec2 side = wind * (reach / speed);
-    return vec3(side.x, -0.5f * reach, side.y);
+    float stem = stem_canopy.x;
+    vec2 tip = bend_arc(stem, stem_canopy.y, bend_intensity(speed, response));
+    float share = y * y / (stem * stem);
+    vec2 side = wind * (tip.y * share / speed);
+    return vec3(side.x, (tip.x - stem) * share, side.y);
 }
 
 // J5.3: scales a Bezier (root at 0) back to its arc length. Gravesen's estimate of its present length.
@@ -69,13 +83,61 @@ SHARED_FN void keep_length(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, float a
     v2 = v1 + span * k;
 }
 
+// Time enters flutter as the fraction of this period, reduced in double on the CPU; every frequency is a whole number of cycles in it, so
+// that motion is as fine after days as at the start, and has no seam.
+SHARED_CONST float kFlutterPeriod_s = 64.0f;
+
+// Cycles in kFlutterPeriod_s of a blade's first bending mode: a cantilever's frequency falls with the square of its length and rises
+// with the root of its stiffness (0 limp .. 1 stiff). 2.6 Hz at 0.27 m and 0.6.
+SHARED_FN float flutter_cycles(float stem, float stiffness) {
+    float hz = 0.19f / (stem * stem) * sqrt((stiffness + 0.2f) / 0.8f);
+    return floor(kFlutterPeriod_s * clamp(hz, 0.7f, 9.0f) + 0.5f);
+}
+
+// Amplitude of flutter at the tip over the blade's length: as the load at first, saturating (W6).
+SHARED_FN float flutter_amplitude(float speed_ms, float response) {
+    float load = wind_load(speed_ms, response);
+    return 0.17f * load / (1.0f + load);
+}
+
+// What flutter does to a blade: shift of the tip over its length, along and across the wind, and turn of its facing (rad). A function of
+// the time (in kFlutterPeriod_s, fraction), the blade (length, stiffness, rank, seed) and the wind alone. Bursts of a few seconds
+// swell and fade; across, a blade is off its own beat, so that its tip draws loops.
+SHARED_FN vec3 flutter_at(float time, vec4 stem_stiffness_rank_seed, float amplitude) {
+    uint h = hash_pcg(uint(stem_stiffness_rank_seed.z * 256.0f) * 256u + uint(stem_stiffness_rank_seed.w * 256.0f) + 0xf1a7u);
+    float phase = float(h & 1023u) / 1024.0f;
+    float other = float((h >> 10u) & 1023u) / 1024.0f;
+    // 15 percent either way: blades of one length do not beat together
+    float cycles = floor(flutter_cycles(stem_stiffness_rank_seed.x, stem_stiffness_rank_seed.y) * (0.85f + 0.3f * float((h >> 20u) & 255u) / 256.0f) + 0.5f);
+    float slow = 9.0f + float((h >> 28u) & 15u); // 0.14 to 0.38 Hz
+    float burst = 0.65f + 0.35f * sin(2.0f * kPi * (fract(slow * time) + other));
+    float along = sin(2.0f * kPi * (fract(cycles * time) + phase));
+    float across = sin(2.0f * kPi * (fract(floor(0.83f * cycles) * time) + other));
+    float twist = sin(2.0f * kPi * (fract(floor(1.37f * cycles) * time) + phase + other));
+    return amplitude * burst * vec3(along, 0.35f * across, 2.2f * twist);
+}
+
+// Flutter of a posed blade about its pose; J5 keeps its length. `shift`: along and across the wind, over the length.
+SHARED_FN void flutter_blade(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, float stem, vec2 shift, vec2 wind) {
+    vec2 ahead = wind / max(length(wind), 1e-4f);
+    vec2 side = stem * (shift.x * ahead + shift.y * vec2(-ahead.y, ahead.x));
+    // Square to the blade's own chord, or a blade that points along the wind would only be stretched and shortened again.
+    vec3 chord = normalize(v2 + vec3(0.0f, 1e-6f, 0.0f));
+    vec3 push = vec3(side.x, 0.0f, side.y);
+    vec3 swing = push - chord * dot(push, chord);
+    swing = swing * (length(push) / max(length(swing), 0.4f * length(push) + 1e-9f));
+    v2 = v2 + swing;
+    v1 = v1 + 0.2f * swing; // the first mode, near s^2
+    keep_length(v1, v2, stem);
+}
+
 // A blade's posed control points. `toward_shell` 0: W3 and J5 (the near pose); 1: the very warp that bends its shell image.
 SHARED_FN void pose_blade(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, vec4 stem_canopy_response_shell, vec2 wind) {
     float stem = stem_canopy_response_shell.x;
     float canopy = stem_canopy_response_shell.y;
     float response = stem_canopy_response_shell.z;
-    vec3 near1 = v1 + grouped_offset(v1.y, stem, wind, response);
-    vec3 near2 = v2 + grouped_offset(v2.y, stem, wind, response);
+    vec3 near1 = v1 + grouped_offset(v1.y, vec2(stem, canopy), wind, response);
+    vec3 near2 = v2 + grouped_offset(v2.y, vec2(stem, canopy), wind, response);
     keep_length(near1, near2, stem);
     // The warp moves the curve's points; a Bezier through the warped root, middle and tip is its closest quadratic.
     vec3 middle = 0.5f * v1 + 0.25f * v2;

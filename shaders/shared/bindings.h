@@ -6,6 +6,7 @@
 // Uniform blocks.
 #define BIND_FRAME 0
 #define BIND_SURFACE 1
+#define BIND_WIND_GRID 2       // WindGrid: the fluid that the wind passes work on
 
 // Storage blocks; GL 4.5 promises 0 to 7.
 #define BIND_BLADES 0          // BladeRecord[], the set's
@@ -17,6 +18,13 @@
 #define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
 #define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
 #define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
+
+// Storage blocks of the wind passes, which run before all others.
+#define BIND_WIND_U 0          // float[]: velocity x at west faces
+#define BIND_WIND_V 1          // float[]: velocity z at north faces
+#define BIND_WIND_SOLID 2      // uint[]: 0 air, else solid
+#define BIND_WIND_SOLID_VELOCITY 3 // vec2[]
+#define BIND_WIND_FORCES 4     // what pushes the air; 4 to 7 are free for a pass's own buffers
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
@@ -34,6 +42,9 @@
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
 #define CLIP_GROUP 8           // clipmap update: 8 x 8 texels
+
+#define WIND_GROUP_X 32        // wind passes: cells a workgroup; rows lie together in memory
+#define WIND_GROUP_Y 4
 
 // Fragment outputs.
 #define OUT_COLOR 0

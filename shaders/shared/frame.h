@@ -20,7 +20,7 @@ struct FrameConstants {
     mat4 clip_from_world;
     mat4 world_from_clip;
     vec4 eye;         // world; w: focal length in pixels (pixels a metre covers at one metre)
-    vec4 lod_eye;     // world place that tier selection measures from; w: time (s), for the wind passes to come
+    vec4 lod_eye;     // world place that tier selection measures from; w: time over kFlutterPeriod_s, its fraction
     vec4 patch_grid;  // offset of the anchor in its patch x, z (m); side (m); canopy (m)
     ivec4 patch_tile; // tile of the anchor x, z; variants; far levels
     vec4 grass;       // offset range (m), density scale, 1 where the ground takes over from the shells, anchor above the datum (m)
@@ -62,10 +62,11 @@ struct DrawCommand {
     uint base_instance;
 };
 
-// Ground and wind at a vertex of a block: evaluated once, read by the ground, every shell and every slice over it. 32 bytes.
+// Ground and wind at a vertex of a block: evaluated once, read by the ground, every shell and every slice over it. 48 bytes.
 struct BlockSample {
     vec4 ground; // world y, grass density, cosine to the sun, tint
     vec4 motion; // dy/dx, dy/dz of the ground; wind x, z (m/s)
+    vec4 sway;   // canopy_sway; x, z of where the bend turns an upright blade at kSwayHeight
 };
 
 // A shell or a slice of one block. 32 bytes.
@@ -75,7 +76,7 @@ struct FarInstance {
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus
-static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 32 && sizeof(FarInstance) == 32);
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32);
 #endif
 
 SHARED_END

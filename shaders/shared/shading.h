@@ -71,6 +71,46 @@ SHARED_FN float canopy_sky(Light light, float h) {
     return exp(-light.zenith.w * (1.0f - h));
 }
 
+// How grass whose blades point along `turn` on average (unit) spreads about it: second moment of the cosine to an axis at cosine c.
+SHARED_CONST float kTangentSpread = 0.24f; // of blades at rest; 0 all alike, 1 every way
+SHARED_FN float spread_square(float c) {
+    return (1.0f - kTangentSpread) * c * c + kTangentSpread / 3.0f;
+}
+
+// Mean of shade_grass's sunlit part over blades so spread, for grey blades of reflectance `grey`.
+SHARED_FN float mean_sunlit(GrassAppearance look, float grey, vec3 turn, vec3 sun_way, vec3 to_eye) {
+    float against = 0.5f - 0.5f * dot(to_eye, sun_way);
+    float diffuse = look.light.x * pow(1.0f - spread_square(dot(turn, sun_way)), 0.5f * look.light.y);
+    float th = dot(turn, normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f)));
+    // A normal spread about th, of variance kTangentSpread / 3, folded with exp(-ps x^2 / 2)
+    float wide = 1.0f + look.light.w * kTangentSpread / 3.0f;
+    float specular = look.light.z * exp(-0.5f * look.light.w * th * th / wide) / sqrt(wide);
+    return grey * (1.0f + 1.1f * look.dry.w * against * against * against) * diffuse + specular;
+}
+
+// W4 as one term: what bending does to the light in a canopy, from `turn`, the direction that it gave upright blades (unit).
+// x: factor on sunlight. Bent blades turn toward the sun or away from it; a canopy as a whole still takes the light that falls on it,
+// so their mean brightness may leave the calm one's by kSwayRange at most and gusts show as waves of that height.
+// y: factor on the optical depth for sunlight. Blades that lie across the light shadow what is below them, blades along it let it
+// through; the depth itself stays that of the height at rest, since bending moves no blade above another.
+SHARED_CONST float kSwayRange = 0.075f;
+SHARED_FN vec2 canopy_sway(GrassAppearance look, vec3 turn, vec3 sun_way, vec3 to_eye) {
+    vec3 upright = vec3(0.0f, 1.0f, 0.0f);
+    float grey = dot(mix(vec3(look.root), vec3(look.tip), 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
+    float x = log(mean_sunlit(look, grey, turn, sun_way, to_eye) / max(mean_sunlit(look, grey, upright, sun_way, to_eye), 1e-6f));
+    float kept = kSwayRange * (1.0f - 2.0f / (1.0f + exp(clamp(2.0f * x / kSwayRange, -60.0f, 60.0f)))); // tanh
+    float across = (1.0f - spread_square(dot(turn, sun_way))) / (1.0f - spread_square(sun_way.y));
+    return vec2(exp(kept - x), sqrt(across));
+}
+
+// Light as it reaches grass (and the ground under it) where `sway` is canopy_sway's.
+SHARED_FN Light light_in_sway(Light light, vec2 sway) {
+    Light here = light;
+    here.sun = vec4(vec3(light.sun) * sway.x, light.sun.w);
+    here.to_sun.w = light.to_sun.w * sway.y;
+    return here;
+}
+
 // A point of a blade, to be shaded.
 struct GrassPoint {
     vec3 albedo;

@@ -35,6 +35,7 @@ using glm::exp;
 using glm::floor;
 using glm::fract;
 using glm::length;
+using glm::log;
 using glm::max;
 using glm::min;
 using glm::mix;

@@ -14,12 +14,25 @@ out vec3 rest;        // x, z at rest (world), height above the ground at rest
 out vec4 ground_here; // height of the ground (world y), grass density, cosine to the sun, tint
 out vec3 ground_slope; // dy/dx, dy/dz; share of the family's blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
+out vec2 sway;          // canopy_sway
 out vec4 haze;
 flat out ivec4 image;
 
-float family_share(vec3 from_eye, vec2 slope, int level) {
+// The shares were found for blades at rest; what they hang on is the angle between view and blades, so bent ones take the view's
+// elevation about their own direction, `bend`.
+float family_share(vec3 from_eye, vec2 slope, vec2 bend, int level) {
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
-    float at = asin(clamp(-dot(normalize(from_eye), normal), 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
+    vec3 bent = normalize(normal + vec3(bend.x, sqrt(max(1.0 - dot(bend, bend), 0.0)) - 1.0, bend.y));
+    vec3 to_eye = -normalize(from_eye);
+    float upright = dot(to_eye, normal);
+    float sine = dot(to_eye, bent);
+    // Grass that points at the eye: slices stand edge on and shells have gaps at the ground's own elevation, so that both show more.
+#ifdef SLICES
+    sine = min(sine, upright);
+#else
+    sine = sine < upright ? sine : mix(upright, sine, dot(bend, bend));
+#endif
+    float at = asin(clamp(sine, 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
 #ifdef SLICES
     return mix(frame.slice_share[row].x, frame.slice_share[row + 1].x, at - float(row));
@@ -49,6 +62,7 @@ void main() {
     BlockSample b = samples[first + two];
     vec4 ground = mix(a.ground, b.ground, line - float(line_index));
     vec4 motion = mix(a.motion, b.motion, line - float(line_index));
+    vec4 swaying = mix(a.sway, b.sway, line - float(line_index));
     float along = corner.y + float(column) * block.place.z;
     vec2 xz = across_x ? vec2(instance.place.x, along) : vec2(along, instance.place.x);
     float y = float(row) / rows * frame.patch_grid.w;
@@ -57,14 +71,17 @@ void main() {
     BlockSample here = samples[first + row * (kBlockCells + 1) + column];
     vec4 ground = here.ground;
     vec4 motion = here.motion;
+    vec4 swaying = here.sway;
     vec2 xz = block.place.xy + vec2(column, row) * block.place.z;
     float y = instance.place.x;
 #endif
+    sway = swaying.xy;
+    vec2 bend = swaying.zw;
     rest = vec3(xz.x, y, xz.y);
     world = vec3(xz.x, ground.x + y, xz.y) + bend_offset(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     turn = bend_turn(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     ground_here = ground;
-    ground_slope = vec3(motion.xy, family_share(world - frame.eye.xyz, motion.xy, instance.image.w));
+    ground_slope = vec3(motion.xy, family_share(world - frame.eye.xyz, motion.xy, bend, instance.image.w));
     haze = haze_of(frame.light, world - frame.eye.xyz);
     image = instance.image;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: visible blocks. Out: ground and wind at each of their vertices.
 #include "lib/ground.glsl"
-#include "lib/wind.glsl"
+#include "lib/sway.glsl"
 
 layout(local_size_x = SAMPLE_GROUP) in;
 layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
@@ -18,6 +18,8 @@ void main() {
     vec2 xz = block.place.xy + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.place.z;
     Ground ground = ground_surface(xz);
     vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
-    samples[index] = BlockSample(vec4(ground_at(xz), ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint),
-                                 vec4(slope, wind_at(xz)));
+    float height = ground_at(xz);
+    vec2 wind = wind_at(xz);
+    samples[index] = BlockSample(vec4(height, ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint),
+                                 vec4(slope, wind), sway_at(vec3(xz.x, height, xz.y), wind));
 }

@@ -7,6 +7,7 @@
 layout(binding = TEX_FAR_APPEARANCE) uniform sampler2DArray far_appearance;
 
 in vec3 world;
+in vec2 sway;
 
 // The whole canopy by the sun's azimuth from the eye's and the elevation of the view.
 struct Canopy {
@@ -32,7 +33,7 @@ void main() {
 
     float variation = mix(0.75, 1.25, ground.tint);
     vec3 soil_albedo = mix(frame.ground_colours[1].rgb, frame.ground_colours[0].rgb, smoothstep(0.0, 0.4, ground.density)) * variation;
-    vec3 soil = shade_soil(frame.light, soil_albedo, ground.normal, ground.density);
+    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, sway.y)), soil_albedo, ground.normal, ground.density);
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
     left_shells *= frame.grass.z; // 0 where no tier hands its blades to the ground (--tiers blades, reference)

@@ -6,11 +6,13 @@ layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBl
 layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
 
 out vec3 world;
+out vec2 sway;
 
 void main() {
     TerrainBlock block = blocks[gl_InstanceID];
     vec2 cell = vec2(gl_VertexID % (kBlockCells + 1), gl_VertexID / (kBlockCells + 1));
     vec2 xz = block.place.xy + cell * block.place.z;
     world = vec3(xz.x, samples[gl_InstanceID * kBlockPosts + gl_VertexID].ground.x, xz.y);
+    sway = samples[gl_InstanceID * kBlockPosts + gl_VertexID].sway.xy;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

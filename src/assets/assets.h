@@ -7,6 +7,7 @@
 
 #include "scene/heightfield.h"
 #include "scene/image.h"
+#include "scene/mesh.h"
 #include "scene/scene.h"
 
 namespace sward::assets {
@@ -21,6 +22,12 @@ namespace sward::assets {
 /// integer landcover classes instead, and a class that is not listed has density 0. Throws like load_elevation.
 [[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path,
                                            const std::map<int, double>& classes = {});
+
+/// Triangles of a .glb or .gltf, of every node of its default scene, placed by its transforms; pictures, materials, skins and
+/// morphs are left alone. External buffers are read from the glTF's directory and below it only. Throws Error: kIo missing or
+/// unreadable; kBadInput for what is no glTF, a required extension, an index or range past its end, NaN, a node in a
+/// loop, no triangles; kOverLimit over docs/limits.
+[[nodiscard]] scene::Mesh load_mesh(const std::filesystem::path& path);
 
 /// 8-bit sRGB PNG. `metadata` is not written: the same picture gives the same bytes. Throws Error(kIo).
 void write_png(const std::filesystem::path& path, const scene::Picture& picture);

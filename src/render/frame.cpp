@@ -3,12 +3,20 @@
 
 #include "blades/blade_tiles.h"
 #include "render/impl.h"
+#include "shared/bend.h"
 #include "shared/bindings.h"
 #include "shells/far_instances.h"
 
 namespace sward::render {
 
 namespace {
+
+/// Where the mean wind turns an upright blade, at the height that stands for the canopy's: x, z.
+glm::vec2 mean_bend(const shared::FrameConstants& frame) {
+    const float canopy = frame.patch_grid.w;
+    const glm::vec3 turn = shared::bend_turn(shared::kSwayHeight * canopy, canopy, {frame.wind.mean.x, frame.wind.mean.y}, frame.wind.mean.w);
+    return {turn.x, turn.z};
+}
 
 void set_gl_state() {
     glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
@@ -67,7 +75,8 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
     }
     const auto blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);
     const auto far = shells::select_far(world.grass, blocks, shot.bands,
-                                        {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level});
+                                        {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
+                                         mean_bend(constants)});
 
     {
         const gl::PassScope pass(timers, "block samples");

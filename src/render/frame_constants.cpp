@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "render/impl.h"
+#include "shared/bend.h"
 
 namespace sward::render {
 
@@ -70,6 +71,12 @@ void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const Fram
     out.mode = {static_cast<int>(settings.handover), settings.force_far_level, settings.tiers == Tiers::kShells ? 1 : 0, 0};
 }
 
+/// Fraction of the flutter's period: reduced here, where a day is still exact to microseconds.
+double flutter_time(double time_s) {
+    const double periods = time_s / shared::kFlutterPeriod_s;
+    return periods - std::floor(periods);
+}
+
 } // namespace
 
 Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const {
@@ -89,7 +96,7 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.clip_from_world = glm::mat4(matrix);
     out.world_from_clip = glm::mat4(glm::inverse(matrix));
     out.eye = glm::vec4(glm::vec3(eye_here), static_cast<float>(focal_px));
-    out.lod_eye = glm::vec4(glm::vec3(view.lod_pose.position - shot.anchor), static_cast<float>(view.time_s));
+    out.lod_eye = glm::vec4(glm::vec3(view.lod_pose.position - shot.anchor), static_cast<float>(flutter_time(view.time_s)));
 
     const double side = set.side_m;
     const glm::dvec2 tile = glm::floor(anchor / side);

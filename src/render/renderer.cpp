@@ -21,7 +21,7 @@ double wind_response(const grass::GrassSet& set) {
         stiffness += blade.v2.w;
     }
     stiffness /= static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
-    return 0.14 * (1.3 - stiffness);
+    return 0.23 * (1.3 - stiffness);
 }
 
 double mean_width(const grass::GrassSet& set) {

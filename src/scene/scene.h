@@ -9,6 +9,8 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/wind_spec.h"
+
 namespace sward::scene {
 
 /// A pose as files and options write it: metres and degrees. yaw 0 looks north (-z), positive to the east; pitch
@@ -57,34 +59,6 @@ struct SunSpec {
     double elevation_deg = 35;
 };
 
-struct WindArrow {
-    std::string id, parent;
-    glm::dvec2 root{0, 0}, tip{0, 0};
-    double strength_ms = 0;
-    double radius_m = 1;
-};
-
-struct WindObstacle {
-    enum class Kind { kBox, kCircle, kMesh } kind = Kind::kCircle;
-    std::vector<double> numbers; ///< box: x, z, width, depth, yaw_deg; circle: x, z, radius
-    std::filesystem::path mesh;
-};
-
-struct WindSpec {
-    double speed_ms = 4;
-    double direction_deg = 270; ///< where the wind comes from, as in aviation
-    double gust = 0.4;          ///< 0 steady .. 1 violent
-    int seed = 7;
-    int cells = 1000;
-    double cell_m = 0.5;
-    double step_s = 1.0 / 60.0;
-    double confinement = 0.3;
-    double viscosity_m2s = 0;
-    double dissipation_per_s = 0;
-    std::vector<WindArrow> arrows;
-    std::vector<WindObstacle> obstacles;
-};
-
 struct ObjectSpec {
     std::string kind; ///< sphere, mesh, vehicle, rotor
     double radius_m = 0.5;
@@ -115,6 +89,8 @@ struct Scene {
 /// Reads a scene file (TOML, docs/scene.md). Throws Error that names file, line, key, found and expected; an unknown key
 /// names the nearest known one. Files that the scene names are not opened here.
 [[nodiscard]] Scene load_scene(const std::filesystem::path& file);
+/// The same from a text; `file` is where it stands or will, for messages and the names in it.
+[[nodiscard]] Scene parse_scene(const std::string& text, const std::filesystem::path& file);
 
 /// "x,y,z,yaw,pitch" (y above the ground) or "abs:x,y,z,yaw,pitch" (y above the datum), in the C locale whatever the
 /// environment says. Throws Error(kUsage) naming `option`. Ranges as in scene files.

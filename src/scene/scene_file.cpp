@@ -65,7 +65,11 @@ toml::table parse(const std::string& text, const std::filesystem::path& file) {
 } // namespace
 
 Scene load_scene(const std::filesystem::path& file) {
-    const toml::table document = parse(base::read_text(file, kLimit), file);
+    return parse_scene(base::read_text(file, kLimit), file);
+}
+
+Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
+    const toml::table document = parse(text, file);
     Scene scene;
     scene.file = file;
     TableReader root(document, file, "");
@@ -85,14 +89,14 @@ Scene load_scene(const std::filesystem::path& file) {
         read_grass(*grass, scene.grass);
     if (sun)
         read_sun(*sun, scene.sun);
-    if (wind)
-        read_wind(*wind, scene.wind);
     if (cameras)
         for (const auto& [name, table] : cameras->named_tables(kMostNamed))
             scene.cameras[name] = read_camera(table);
     if (paths)
         for (const auto& [name, table] : paths->named_tables(kMostNamed))
             scene.paths[name] = read_path(table);
+    if (wind)
+        read_wind(*wind, scene.paths, scene.wind);
     for (const TableReader& table : objects)
         scene.objects.push_back(read_object(table, scene.paths));
     if (lod)

@@ -2,15 +2,12 @@
 #include "scene/scene_sections.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <fmt/format.h>
 
 namespace sward::scene {
 namespace {
 
-constexpr std::size_t kMostArrows = 1024;
-constexpr std::size_t kMostObstacles = 4096;
 constexpr std::size_t kMostKeys = 10000;
 constexpr int kHighestClass = 65535; // 16-bit landcover
 
@@ -21,77 +18,6 @@ std::optional<glm::dvec2> read_pair(TableReader& table, const char* key, const R
     if (!table.numbers(key, given, {range, range}))
         return std::nullopt;
     return glm::dvec2(given[0], given[1]);
-}
-
-WindArrow read_arrow(TableReader& table) {
-    WindArrow arrow;
-    table.name("id", arrow.id);
-    table.name("parent", arrow.parent);
-    table.place("root", arrow.root);
-    table.place("tip", arrow.tip);
-    table.number("strength_ms", arrow.strength_ms, {0, 300, "m/s"});
-    table.number("radius_m", arrow.radius_m, {0.01, 1000, "m"});
-    table.finish();
-    for (const char* key : {"id", "root", "tip", "strength_ms"})
-        table.require(key);
-    if (arrow.root == arrow.tip)
-        throw table.error("tip", "the root's own place",
-                          "another place, for the arrow's direction");
-    return arrow;
-}
-
-/// Every parent exists, every id is alone, and following parents comes to an end.
-void check_arrows(const std::vector<TableReader>& tables, const std::vector<WindArrow>& arrows) {
-    std::map<std::string, std::size_t> index;
-    for (std::size_t i = 0; i < arrows.size(); ++i)
-        if (!index.emplace(arrows[i].id, i).second)
-            throw tables[i].error("id", fmt::format("\"{}\" a second time", arrows[i].id),
-                                  "an id of its own");
-    std::vector<std::string> ids;
-    for (const WindArrow& arrow : arrows)
-        ids.push_back(arrow.id);
-    for (std::size_t i = 0; i < arrows.size(); ++i) {
-        const std::string& parent = arrows[i].parent;
-        if (parent.empty() || index.contains(parent))
-            continue;
-        const std::string nearest = base::nearest_name(parent, ids);
-        throw tables[i].error("parent", fmt::format("\"{}\"", parent),
-                              nearest.empty() ? "the id of an arrow"
-                                              : fmt::format("\"{}\"", nearest));
-    }
-    // A chain that takes more steps than there are arrows goes in a circle. Arrows known to end are
-    // not walked again.
-    std::vector<bool> ends(arrows.size(), false);
-    for (std::size_t i = 0; i < arrows.size(); ++i) {
-        std::vector<std::size_t> chain;
-        for (std::size_t at = i; !ends[at];) {
-            chain.push_back(at);
-            if (chain.size() > arrows.size())
-                throw tables[i].error(
-                    "parent", fmt::format("\"{}\", which leads back to itself", arrows[i].parent),
-                    "arrows that start somewhere");
-            if (arrows[at].parent.empty())
-                break;
-            at = index.at(arrows[at].parent);
-        }
-        for (const std::size_t at : chain)
-            ends[at] = true;
-    }
-}
-
-WindObstacle read_obstacle(TableReader& table) {
-    WindObstacle obstacle;
-    int shapes = 0;
-    if (table.numbers("box", obstacle.numbers, {kPlace, kPlace, kLength, kLength, kYaw}))
-        obstacle.kind = WindObstacle::Kind::kBox, ++shapes;
-    if (table.numbers("circle", obstacle.numbers, {kPlace, kPlace, kLength}))
-        obstacle.kind = WindObstacle::Kind::kCircle, ++shapes;
-    if (table.path("mesh", obstacle.mesh))
-        obstacle.kind = WindObstacle::Kind::kMesh, ++shapes;
-    table.finish();
-    if (shapes != 1)
-        throw table.error("", fmt::format("{} shapes", shapes), "one of box, circle, mesh");
-    return obstacle;
 }
 
 } // namespace
@@ -130,27 +56,6 @@ void read_sun(TableReader table, SunSpec& sun) {
     table.number("azimuth_deg", sun.azimuth_deg, kYaw);
     table.number("elevation_deg", sun.elevation_deg, {-90, 90, "degrees"});
     table.finish();
-}
-
-void read_wind(TableReader table, WindSpec& wind) {
-    table.number("speed_ms", wind.speed_ms, {0, 150, "m/s"});
-    table.number("direction_deg", wind.direction_deg, kYaw);
-    table.number("gust", wind.gust, kShare);
-    table.integer("seed", wind.seed, 0, std::numeric_limits<int>::max());
-    table.integer("cells", wind.cells, 16, 4096);
-    table.number("cell_m", wind.cell_m, {0.05, 10, "m"});
-    table.number("step_s", wind.step_s, {0.001, 0.1, "s"});
-    table.number("confinement", wind.confinement, {0, 10, ""});
-    table.number("viscosity_m2s", wind.viscosity_m2s, {0, 100, "m2/s"});
-    table.number("dissipation_per_s", wind.dissipation_per_s, {0, 10, "1/s"});
-    std::vector<TableReader> arrows = table.tables("arrow", kMostArrows);
-    std::vector<TableReader> obstacles = table.tables("obstacle", kMostObstacles);
-    table.finish();
-    for (TableReader& arrow : arrows)
-        wind.arrows.push_back(read_arrow(arrow));
-    check_arrows(arrows, wind.arrows);
-    for (TableReader& obstacle : obstacles)
-        wind.obstacles.push_back(read_obstacle(obstacle));
 }
 
 void read_lod(TableReader table, LodSpec& lod) {
@@ -207,6 +112,19 @@ Path read_path(TableReader table) {
     return path;
 }
 
+void check_path(const TableReader& table, const std::string& path,
+                const std::map<std::string, Path>& paths) {
+    if (path.empty() || paths.contains(path))
+        return;
+    std::vector<std::string> names;
+    for (const auto& [name, unused] : paths)
+        names.push_back(name);
+    const std::string nearest = base::nearest_name(path, names);
+    throw table.error("path", fmt::format("\"{}\"", path),
+                      nearest.empty() ? "the NAME of a [path.NAME]"
+                                      : fmt::format("\"{}\"", nearest));
+}
+
 ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& paths) {
     ObjectSpec object;
     table.name("kind", object.kind);
@@ -224,15 +142,7 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
         table.require("mesh");
     if (table.has("position") == table.has("path"))
         throw table.error("", table.has("path") ? "both" : "neither", "either position or path");
-    if (!object.path.empty() && !paths.contains(object.path)) {
-        std::vector<std::string> names;
-        for (const auto& [name, path] : paths)
-            names.push_back(name);
-        const std::string nearest = base::nearest_name(object.path, names);
-        throw table.error("path", fmt::format("\"{}\"", object.path),
-                          nearest.empty() ? "the NAME of a [path.NAME]"
-                                          : fmt::format("\"{}\"", nearest));
-    }
+    check_path(table, object.path, paths);
     return object;
 }
 

@@ -11,10 +11,14 @@ namespace sward::scene {
 void read_terrain(TableReader table, TerrainSpec& terrain);
 void read_grass(TableReader table, GrassSpec& grass);
 void read_sun(TableReader table, SunSpec& sun);
-void read_wind(TableReader table, WindSpec& wind);
+/// `paths` are the scene's: a source or obstacle that follows one must name one that exists.
+void read_wind(TableReader table, const std::map<std::string, Path>& paths, WindSpec& wind);
 void read_lod(TableReader table, LodSpec& lod);
 [[nodiscard]] Pose read_camera(TableReader table);
 [[nodiscard]] Path read_path(TableReader table);
+/// Refuses the name of a path that is not among `paths`; empty is none.
+void check_path(const TableReader& table, const std::string& path,
+                const std::map<std::string, Path>& paths);
 /// `paths` are the scene's: an object that follows one must name one that exists.
 [[nodiscard]] ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& paths);
 

@@ -160,6 +160,16 @@ bool TableReader::name(const char* key, std::string& value) {
     return true;
 }
 
+bool TableReader::name_or_none(const char* key, std::string& value) {
+    const toml::node* node = find(key);
+    if (!node)
+        return false;
+    if (!node->is_string() || !(node->as_string()->get().empty() || is_name(node->as_string()->get())))
+        throw wrong(full_name(key), *node, kNameRule);
+    value = node->as_string()->get();
+    return true;
+}
+
 bool TableReader::path(const char* key, std::filesystem::path& value) {
     std::string given;
     if (!text(key, given))

@@ -30,6 +30,8 @@ public:
     bool text(const char* key, std::string& value);
     /// A short name: letters, digits, '_' and '-'.
     bool name(const char* key, std::string& value);
+    /// The same, or an empty text for none.
+    bool name_or_none(const char* key, std::string& value);
     /// A file name, resolved against the scene's directory.
     bool path(const char* key, std::filesystem::path& value);
     bool numbers(const char* key, std::vector<double>& values, const std::vector<Range>& ranges);

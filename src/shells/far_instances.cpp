@@ -29,6 +29,17 @@ Span distances(const VisibleBlock& block, glm::vec3 eye, float canopy) {
     return {glm::length(gap), glm::length(far)};
 }
 
+/// Sines of view elevation that far.vert's family_share can look up in a block of these (x lowest, y highest), for bent grass: down to
+/// the elevation about its own direction, up where it points at the eye. Local winds blow a third harder and some 15 degrees off.
+glm::vec2 seen_bent(glm::vec2 sines, const VisibleBlock& block, const FarQuery& query) {
+    const float most = std::min(1.3f * glm::length(query.bend), 1.0f);
+    const glm::vec2 middle = block.corner + 0.5f * side_of(block);
+    const glm::vec2 to_eye(query.eye.x - middle.x, query.eye.z - middle.y);
+    const float away = glm::length(to_eye);
+    const float toward = away > side_of(block) ? 1.3f * glm::dot(query.bend, to_eye) / away + 0.3f * most : most;
+    return glm::clamp(sines + glm::vec2(-1.1f * most, most * most * std::max(toward, 0.0f)), 0.0f, 1.0f);
+}
+
 /// Largest share of level k's blades that the shells of a block show, over the elevations it is seen at.
 float largest_shell_share(const grass::GrassSet& set, const VisibleBlock& block, const FarQuery& query, int k) {
     const Span span = distances(block, query.eye, set.canopy_m);
@@ -37,9 +48,10 @@ float largest_shell_share(const grass::GrassSet& set, const VisibleBlock& block,
     // A slope turns toward the eye by its own angle at most.
     const float low = std::clamp((drop - spread) / std::max(span.farthest, 1e-3f) - block.slope, 0.0f, 1.0f);
     const float high = std::clamp((drop + spread) / std::max(span.nearest, 1e-3f) + block.slope, 0.0f, 1.0f);
+    const glm::vec2 sines = seen_bent({low, high}, block, query);
     float largest = 0;
     for (int i = 0; i <= 4; ++i) {
-        largest = std::max(largest, shell_share_at(set, std::asin(glm::mix(low, high, static_cast<float>(i) / 4)))[k]);
+        largest = std::max(largest, shell_share_at(set, std::asin(glm::mix(sines.x, sines.y, static_cast<float>(i) / 4)))[k]);
     }
     return largest;
 }

@@ -25,6 +25,7 @@ struct FarQuery {
     glm::vec2 patch_offset{0}; ///< of the anchor in its patch (m)
     bool alone = false;     ///< the far tier from the eye's feet on
     int forced_level = -1;
+    glm::vec2 bend{0};      ///< where the mean wind turns an upright blade: x, z of a unit vector
 };
 
 [[nodiscard]] FarList select_far(const grass::GrassSet& set, const std::vector<terrain::VisibleBlock>& blocks,

@@ -249,7 +249,7 @@ vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade
 TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
     select();
     const Survivors survivors = cull();
-    int folded = 0, posed = 0, checked = 0;
+    int folded = 0, posed = 0, checked = 0, fluttering = 0;
     for (std::size_t n = 0; n < survivors.size(); n += 7) {
         const glm::uvec2 which = survivors[n];
         const BladeRecord& blade = world_.set.blades[which.y];
@@ -258,9 +258,18 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         const float shell =
             shared::pose_share(blade.root.z, distance, vec2(world_.frame.pose_band));
         vec3 v1(blade.v1), v2(blade.v2);
+        const vec2 wind = shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z));
         shared::pose_blade(
             v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
-            shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z)));
+            wind);
+        const float response = world_.frame.wind.mean.w;
+        const vec3 flutter = shared::flutter_at(
+            world_.frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.z, blade.root.w),
+            (1 - shell) * shared::flutter_amplitude(glm::length(wind), response));
+        fluttering += glm::length(flutter) > 1e-3f;
+        shared::flutter_blade(v1, v2, blade.shape.y, vec2(flutter), wind);
+        BladeRecord turned = blade;
+        turned.shape.x += flutter.z;
         const auto vertices = tessellate(places_[n]);
         ASSERT_GE(vertices.size(), 12u);
         std::set<float> rows;
@@ -269,7 +278,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
             float best = 1e9f;
             for (const float u : {0.0f, 0.5f, 1.0f}) {
                 const float off =
-                    glm::distance(vertex.world, blade_surface(world_.frame, blade, at, v1, v2,
+                    glm::distance(vertex.world, blade_surface(world_.frame, turned, at, v1, v2,
                                                               {u, vertex.along.x}));
                 middle |= u == 0.5f && off < best && off < 1e-4f;
                 best = std::min(best, off);

@@ -130,6 +130,7 @@ box = [1, 2, 3, 4, 45]
 circle = [12, -3, 2.5]
 [[wind.obstacle]]
 mesh = "barn.glb"
+place = [-8, 20]
 [[object]]
 kind = "sphere"
 radius_m = 0.75
@@ -169,7 +170,9 @@ far_end_m = 400
     EXPECT_EQ(scene.wind.arrows[0].radius_m, 6);
     ASSERT_EQ(scene.wind.obstacles.size(), 3u);
     EXPECT_EQ(scene.wind.obstacles[0].kind, WindObstacle::Kind::kBox);
-    EXPECT_EQ(scene.wind.obstacles[0].numbers, (std::vector<double>{1, 2, 3, 4, 45}));
+    EXPECT_EQ(scene.wind.obstacles[0].where.place, glm::dvec2(1, 2));
+    EXPECT_EQ(scene.wind.obstacles[0].size, glm::dvec2(3, 4));
+    EXPECT_EQ(scene.wind.obstacles[0].where.yaw_deg, 45);
     EXPECT_EQ(scene.wind.obstacles[2].mesh, dir_ / "barn.glb");
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[0].path, "roll");

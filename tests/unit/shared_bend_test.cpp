@@ -114,16 +114,54 @@ TEST(Bend, CalmIsExactAndSidesAreMirrored) {
     }
 }
 
-TEST(Bend, IntensityRisesAndSaturates) {
+TEST(Bend, IntensityRisesAsTheSquareAndSaturates) {
     float before = bend_intensity(0.0f, 0.1f);
     EXPECT_EQ(before, 0.0f);
-    for (float speed = 1.0f; speed < 40.0f; speed += 1.0f) {
+    for (float speed = 1.0f; speed <= 300.0f; speed += 1.0f) {
         const float here = bend_intensity(speed, 0.1f);
-        EXPECT_GT(here, before);
-        EXPECT_LT(here, 0.72f);
+        EXPECT_GT(here, before) << speed;
+        EXPECT_LT(here, 1.0f);
         before = here;
     }
-    EXPECT_LE(bend_intensity(1e6f, 0.1f), 0.72f);
+    EXPECT_LE(bend_intensity(1e6f, 0.1f), 1.0f);
+    // Drag: twice the wind bends four times as much, while blades still stand against it; later much less.
+    EXPECT_NEAR(bend_intensity(0.4f, 0.1f) / bend_intensity(0.2f, 0.1f), 4.0f, 0.02f);
+    EXPECT_LT(bend_intensity(40.0f, 0.1f) / bend_intensity(20.0f, 0.1f), 1.35f);
+}
+
+/// Tip angle over 90 degrees of an elastic fibre clamped in a cross flow, and its Cauchy number (drag of the upright fibre times
+/// length cubed over stiffness). Marched from the free tip, which stands at `tip` (rad): force, moment and angle down to the root.
+glm::dvec2 fibre(double tip) {
+    double angle = tip, moment = 0, along = 0, up = 0, s = 0;
+    for (const double step = 5e-4; angle > 0; s += step) {
+        const double drag = std::cos(angle) * std::cos(angle); // square to the fibre: of the wind's component there
+        along += drag * std::cos(angle) * step;
+        up -= drag * std::sin(angle) * step;
+        moment += (along * std::cos(angle) - up * std::sin(angle)) * step;
+        angle -= moment * step;
+    }
+    return {tip / (0.5 * 3.14159265358979323846), s * s * s};
+}
+
+TEST(Bend, IntensityIsAnElasticFibresInDrag) {
+    for (const double tip : {0.1, 0.2, 0.4, 0.8, 1.2, 1.4, 1.5}) {
+        const glm::dvec2 found = fibre(tip);
+        const float speed = static_cast<float>(std::sqrt(0.159 * found.y)); // I starts as Cauchy's / (3 pi)
+        EXPECT_NEAR(bend_intensity(speed, 1.0f), found.x, 0.06) << tip;
+    }
+}
+
+TEST(Bend, CanopyFallsWithTheWindAndNeverFlattens) {
+    const float canopy = 0.35f;
+    float before = canopy;
+    for (float speed = 0.5f; speed <= 300.0f; speed += 0.5f) {
+        const float here = canopy + bend_offset(canopy, canopy, vec2(0.6f, -0.8f) * speed, 0.17f).y;
+        EXPECT_LT(here, before) << speed;
+        EXPECT_GT(here, 0.6f * canopy) << speed;
+        before = here;
+    }
+    EXPECT_LT(before, 0.66f * canopy); // and it does fall
+    EXPECT_GT(bend_offset(canopy, canopy, vec2(1e6f, 0.0f), 0.17f).y, -0.4f * canopy);
 }
 
 TEST(Bend, OffsetFollowsTheWindAndKeepsDistanceToTheRoot) {
@@ -138,7 +176,7 @@ TEST(Bend, OffsetFollowsTheWindAndKeepsDistanceToTheRoot) {
     for (const vec3& none :
          {bend_offset(0.0f, 0.3f, wind, 0.1f), bend_offset(-0.1f, 0.3f, wind, 0.1f),
           bend_offset(0.2f, 0.3f, vec2(0.0f), 0.1f),
-          grouped_offset(0.2f, 0.3f, vec2(0.0f), 0.1f)}) {
+          grouped_offset(0.2f, vec2(0.3f, 0.35f), vec2(0.0f), 0.1f)}) {
         EXPECT_EQ(none, vec3(0.0f));
     }
 }
@@ -156,12 +194,86 @@ TEST(Bend, TurnIsTheOffsetsDerivative) {
     EXPECT_EQ(bend_turn(0.2f, 0.3f, vec2(0.0f), 0.1f), vec3(0.0f, 1.0f, 0.0f));
 }
 
-TEST(Bend, GroupedAndShellLeanAlikeToFirstOrder) {
-    const vec2 breeze(0.3f, 0.0f);
-    const float shell = bend_offset(0.3f, 0.3f, breeze, 0.1f).x;
-    const float grouped = grouped_offset(0.3f, 0.3f, breeze, 0.1f).x;
-    EXPECT_GT(shell, 0.0f);
-    EXPECT_NEAR(grouped / shell, 1.0f, 0.01f);
+TEST(Bend, GroupedAndShellPutAnUprightTipAtOnePlace) {
+    for (const float speed : {0.3f, 4.0f, 15.0f, 60.0f}) {
+        for (const float stem : {0.15f, 0.3f}) {
+            const vec2 wind = speed * vec2(0.8f, 0.6f);
+            const vec3 shell = bend_offset(stem, 0.3f, wind, 0.1f);
+            EXPECT_GT(shell.x, 0.0f);
+            EXPECT_LT(glm::length(grouped_offset(stem, vec2(stem, 0.3f), wind, 0.1f) - shell), 1e-6f);
+        }
+    }
+}
+
+/// Flutter of a blade of 0.28 m at this time, in periods.
+vec3 flutter_of(double time_s, float speed, float rank = 0.3f) {
+    const double periods = time_s / kFlutterPeriod_s;
+    return flutter_at(static_cast<float>(periods - std::floor(periods)), vec4(0.28f, 0.6f, rank, 0.7f),
+                      flutter_amplitude(speed, 0.17f));
+}
+
+TEST(Flutter, StillInCalmGrowsWithTheWindAndSaturates) {
+    EXPECT_EQ(flutter_of(3.3, 0.0f), vec3(0.0f));
+    float before = 0;
+    for (const float speed : {0.1f, 1.0f, 3.0f, 8.0f, 20.0f, 40.0f, 150.0f}) {
+        float most = 0;
+        for (int i = 0; i < 2000; ++i) {
+            most = std::max(most, std::abs(flutter_of(0.01 * i, speed).x));
+        }
+        EXPECT_GT(most, before);
+        EXPECT_LT(most, 0.2f);
+        before = most;
+    }
+    EXPECT_LT(flutter_amplitude(0.1f, 0.17f), 1e-3f);
+    EXPECT_LT(flutter_amplitude(80, 0.17f) / flutter_amplitude(20, 0.17f), 1.1f);
+}
+
+TEST(Flutter, IsAsFineAfterDaysAndHasNoSeam) {
+    for (const double start : {0.0, 63.99, 127.995, 3 * 86400.0 - 0.003}) {
+        double fastest = 0;
+        for (int i = 0; i < 400; ++i) {
+            const double time = start + 1e-4 * i;
+            fastest = std::max<double>(fastest, glm::length(flutter_of(time + 1e-4, 20) - flutter_of(time, 20)));
+        }
+        EXPECT_GT(fastest, 1e-5) << start; // moves
+        EXPECT_LT(fastest, 2e-3) << start; // without a jump: 0.4 rad at some 4 Hz
+    }
+    EXPECT_LT(glm::length(flutter_of(5 + 64.0 * 10000, 20) - flutter_of(5, 20)), 1e-3f);
+}
+
+TEST(Flutter, EachBladeHasItsOwnBeat) {
+    EXPECT_GT(flutter_cycles(0.18f, 0.6f), 2 * flutter_cycles(0.34f, 0.6f)); // short ones are quicker
+    EXPECT_GT(flutter_cycles(0.3f, 0.8f), flutter_cycles(0.3f, 0.35f));      // and stiff ones
+    EXPECT_NEAR(flutter_cycles(0.27f, 0.6f) / kFlutterPeriod_s, 2.6f, 0.1f);
+    EXPECT_EQ(flutter_cycles(0.01f, 1.0f) / kFlutterPeriod_s, 9.0f);
+    // Blades of one length are spread over the beat at every moment.
+    for (const double time : {0.0, 2.0, 100.0}) {
+        int ahead = 0;
+        for (int n = 0; n < 256; ++n) {
+            ahead += flutter_of(time, 20, (static_cast<float>(n) + 0.5f) / 256).x > 0;
+        }
+        EXPECT_GT(ahead, 90);
+        EXPECT_LT(ahead, 166);
+    }
+}
+
+TEST(Flutter, KeepsLengthRootAndHeight) {
+    std::mt19937 random(11);
+    for (int n = 0; n < 200; ++n) {
+        const RestBlade blade = random_blade(random);
+        for (const float speed : {0.0f, 5.0f, 40.0f}) {
+            const vec2 wind = speed * vec2(0.28f, 0.96f);
+            vec3 v1 = blade.v1, v2 = blade.v2;
+            pose_blade(v1, v2, vec4(blade.stem, 1.2f * blade.stem, 0.17f, 0.0f), wind);
+            const vec3 posed = v2;
+            const vec2 shift(0.17f * std::sin(static_cast<float>(n)), 0.06f);
+            flutter_blade(v1, v2, blade.stem, speed > 0 ? shift : vec2(0.0f), wind);
+            EXPECT_NEAR(measured_length(v1, v2) / blade.stem, 1.0, 0.01) << speed;
+            EXPECT_GT(v2.y, 0.0f);
+            EXPECT_LT(glm::length(v2 - posed), 0.3f * blade.stem);
+            EXPECT_EQ(glm::length(v2 - posed) > 1e-3f * blade.stem, speed > 0) << speed;
+        }
+    }
 }
 
 TEST(Bend, KeepLengthRestoresTheArc) {

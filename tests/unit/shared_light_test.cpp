@@ -100,6 +100,55 @@ TEST(Shading, SunlightFadesDownTheCanopyAndBehindTheHill) {
     EXPECT_LT(canopy_sun(light, 0.5f, 0.3f), canopy_sun(light, 0.5f, 0.9f)); // a longer path
 }
 
+TEST(Sway, CalmChangesNothingAndGalesStayWithinReason) {
+    const shared::GrassAppearance look = tests::grass_look();
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const float grey = glm::dot(glm::mix(vec3(look.root), vec3(look.tip), 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
+    float lowest = 2, highest = 0, farthest = 0;
+    for (int n = 0; n < 5000; ++n) {
+        const auto direction = [&](float up) {
+            const float azimuth = 2 * shared::kPi * unit(random), flat = std::sqrt(1 - up * up);
+            return vec3(flat * std::cos(azimuth), up, flat * std::sin(azimuth));
+        };
+        const vec3 sun = direction(0.02f + 0.97f * unit(random)), to_eye = direction(unit(random));
+        const vec2 calm = canopy_sway(look, vec3(0, 1, 0), sun, to_eye);
+        EXPECT_NEAR(calm.x, 1, 1e-5f);
+        EXPECT_NEAR(calm.y, 1, 1e-5f);
+        const vec3 turn = direction(unit(random));
+        const vec2 bent = canopy_sway(look, turn, sun, to_eye);
+        // The mean over the blades keeps within kSwayRange of the calm one's.
+        const float kept = bent.x * mean_sunlit(look, grey, turn, sun, to_eye) /
+                           mean_sunlit(look, grey, vec3(0, 1, 0), sun, to_eye);
+        EXPECT_LE(std::abs(std::log(kept)), 1.001f * shared::kSwayRange);
+        farthest = std::max(farthest, std::abs(std::log(kept)));
+        EXPECT_GT(bent.x, 0.2f);
+        EXPECT_LT(bent.x, 5.0f);
+        EXPECT_GT(bent.y, 0.3f);
+        EXPECT_LT(bent.y, 3.5f);
+        lowest = std::min(lowest, bent.y);
+        highest = std::max(highest, bent.y);
+    }
+    EXPECT_GT(farthest, 0.9f * shared::kSwayRange);
+    EXPECT_LT(lowest, 0.7f); // both ways, or the term does nothing
+    EXPECT_GT(highest, 1.4f);
+}
+
+TEST(Sway, BladesAcrossTheLightShadowAndAlongItLetThrough) {
+    const shared::GrassAppearance look = tests::grass_look();
+    const vec3 sun = glm::normalize(vec3(1, 0.8f, 0)), to_eye = glm::normalize(vec3(0, 0.4f, 1));
+    const vec2 along = canopy_sway(look, sun, sun, to_eye);
+    const vec2 across = canopy_sway(look, glm::normalize(vec3(-0.8f, 1, 0)), sun, to_eye);
+    EXPECT_LT(along.y, 1);
+    EXPECT_GT(across.y, 1);
+    EXPECT_GT(along.x, across.x);
+    const Light light = tests::daylight(sun);
+    EXPECT_GT(canopy_sun(light_in_sway(light, along), 0.3f, sun.y), canopy_sun(light, 0.3f, sun.y));
+    EXPECT_LT(canopy_sun(light_in_sway(light, across), 0.3f, sun.y), canopy_sun(light, 0.3f, sun.y));
+    EXPECT_EQ(light_in_sway(light, vec2(1)).sun, light.sun);
+    EXPECT_EQ(light_in_sway(light, vec2(1)).to_sun, light.to_sun);
+}
+
 TEST(Shading, ABladesColourIsItsOwnAndWithinReason) {
     const shared::GrassAppearance look = tests::grass_look();
     const auto at = [&](float rank, float seed) {
