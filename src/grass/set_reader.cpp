@@ -281,6 +281,10 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
 
 } // namespace
 
+std::vector<std::byte> read_set_file(const fs::path& directory, const std::string& name) {
+    return verified_file(SetJson(directory / kSetJson), directory, name);
+}
+
 GrassSet read_grass_set(const fs::path& directory) {
     const SetJson set(directory / kSetJson);
     GrassSet out;
