@@ -62,11 +62,21 @@ std::vector<grass::FarRow> far_table(const Patch& patch, double canopy_m, int th
     std::vector<BladeField> fields;
     for (int v = 0; v < patch.variants(); ++v)
         fields.emplace_back(patch.variant(v), patch.looks, patch.side_m, canopy_m);
+    std::vector<grass::FarRow> rows = empty_far_rows();
+    parallel_for(rows.size(), resolve_threads(threads), [&](std::size_t i, int) {
+        const float slice_share = rows[i].slice_share;
+        rows[i] = cast_elevation(fields, kElevationsDeg[i]);
+        rows[i].slice_share = slice_share;
+    });
+    return rows;
+}
+
+std::vector<grass::FarRow> empty_far_rows() {
     std::vector<grass::FarRow> rows(kElevationsDeg.size());
-    parallel_for(rows.size(), resolve_threads(threads),
-                 [&](std::size_t i, int) { rows[i] = cast_elevation(fields, kElevationsDeg[i]); });
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].elevation_deg = static_cast<float>(kElevationsDeg[i]);
         rows[i].slice_share = static_cast<float>(kSliceShares[i]);
+    }
     return rows;
 }
 

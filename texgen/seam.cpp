@@ -78,7 +78,7 @@ std::vector<int> boundary(const std::vector<float>& cost, int width, int rows, L
 
 /// What a column in which the larger wins costs, of the difference there: it holds more than either side does, and a
 /// wide band of it would be seen as one.
-constexpr float kLargerCost = 0.125f;
+constexpr float kLargerCost = 0.02f;
 
 /// Costs of the two boundaries: of changing over at a column, and of the columns that this leaves to the larger.
 OverlapCost with_band(const OverlapCost& cost, int middle) {

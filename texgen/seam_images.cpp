@@ -51,17 +51,6 @@ std::vector<double> gradients(const View& view) {
     return out;
 }
 
-JointReport joint_of(const View& view) {
-    std::vector<double> all = gradients(view);
-    const double joint = all.back();
-    all.pop_back();
-    if (all.empty())
-        return {joint, joint};
-    const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-    std::ranges::nth_element(all, middle);
-    return {joint, *middle};
-}
-
 OverlapCost cost_of(const LayerStack& stack, bool vertical, int cut) {
     const View first{stack.images.front(), vertical};
     OverlapCost cost{cut, first.along(), {}, {}};
@@ -117,18 +106,23 @@ LayerStack along_axis(const LayerStack& stack, bool vertical, int cut) {
 } // namespace
 
 JointReport measure_stack(const LayerStack& stack) {
-    std::vector<JointReport> all;
-    double mean = 0;
-    for (const LayerImage& image : stack.images)
-        for (const bool vertical : {false, true}) {
-            all.push_back(joint_of({image, vertical}));
-            mean += all.back().interior;
-        }
-    mean /= static_cast<double>(all.size());
     JointReport worst;
-    for (JointReport own : all) {
-        own.interior = std::max(own.interior, 0.1 * mean); // sparse top layers have columns without any change
-        if (worst.interior == 0 || own.ratio() > worst.ratio())
+    for (const bool vertical : {false, true}) {
+        std::vector<double> all;
+        for (const LayerImage& image : stack.images) {
+            const std::vector<double> own = gradients({image, vertical});
+            all.resize(own.size());
+            for (std::size_t i = 0; i < own.size(); ++i)
+                all[i] += own[i];
+        }
+        const double joint = all.back();
+        all.pop_back();
+        if (all.empty())
+            continue;
+        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+        std::ranges::nth_element(all, middle);
+        const JointReport own{joint, *middle};
+        if (vertical == false || own.ratio() > worst.ratio())
             worst = own;
     }
     return worst;

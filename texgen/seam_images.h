@@ -19,8 +19,8 @@ struct LayerStack {
 /// the least number that exists on, without gaps), or one picture. Throws base::Error: kIo, kBadInput, kOverLimit.
 [[nodiscard]] LayerStack read_stack(const std::filesystem::path& input);
 
-/// Joints of every picture on the torus: the worst ratio of all pictures and both axes. A picture without content in
-/// its interior counts by the stack's mean.
+/// Joint of the stack on the torus, gradients summed over its pictures (a sparse one alone has columns without any
+/// change): the worse of both axes.
 [[nodiscard]] JointReport measure_stack(const LayerStack& stack);
 
 /// G2 on all pictures alike: one pair of boundaries for the stack, so that blades that cross layers stay whole. The

@@ -41,9 +41,16 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     };
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
+<<<<<<< HEAD
         const int number = static_cast<int>(k);
         add(grass::layers_file(number), level.layers);
         if (k == 0 && options.volume)
+=======
+        parts.push_back({grass::layers_file(static_cast<int>(k)), [&level, &options] {
+                             return grass::encode_ktx2(level.layers, options.compression);
+                         }});
+        if (k == 0 && options.volume && !set.blades.empty())
+>>>>>>> 6ffea2d (texgen: seam and import)
             parts.push_back({grass::kVolumeFile, [&set] { return encode_volume(set); }});
         add(grass::slices_file(number), level.slices);
     }
@@ -57,9 +64,10 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
                                  return grass::encode_ktx2(*shapes, options.compression);
                              }});
     }
-    parts.push_back({grass::kBladesFile, [&set] {
-                         return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
-                     }});
+    if (!set.blades.empty()) // an imported volume's set is far-only
+        parts.push_back({grass::kBladesFile, [&set] {
+                             return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
+                         }});
     return parts;
 }
 

@@ -162,8 +162,10 @@ std::vector<std::byte> encode_layer_image(const LayerImage& image, const std::fi
         spec.channelnames = image.names;
     spec.alpha_channel = image.alpha();
     spec.attribute("oiio:UnassociatedAlpha", 1); // values go out as they came in
-    spec.attribute("compression", "zip");
-    spec.attribute("DateTime", ""); // else no two files are the same
+    if (image.format == Format::kExr) {
+        spec.attribute("compression", "zip");
+        spec.attribute("DateTime", ""); // else no two files are the same
+    }
     OIIO::Filesystem::IOVecOutput memory;
     output->set_ioproxy(&memory);
     bool done = output->open(std::string("memory.") + writer, spec);

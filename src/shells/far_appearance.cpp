@@ -25,9 +25,9 @@ struct Part {
     float area; // relative
 };
 
-/// Parts of blades as they stand in the mean wind, spread over the first variant.
-std::vector<Part> parts_of(const grass::GrassSet& set, const glm::vec4& wind) {
-    std::vector<Part> parts;
+/// Parts of blades at rest, spread over the first variant.
+std::vector<RestPart> parts_of_blades(const grass::GrassSet& set) {
+    std::vector<RestPart> parts;
     const std::size_t count = set.variant_begin[1];
     for (int n = 0; n < kBlades; ++n) {
         const shared::BladeRecord& blade = set.blades[count * static_cast<std::size_t>(n) / kBlades];
@@ -36,13 +36,62 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const glm::vec4& wind) {
         const shared::GrassAppearance& look = set.species[species].look;
         for (int i = 0; i < kPlaces; ++i) {
             const float v = shared::blade_station((static_cast<float>(i) + 0.5f) / kPlaces, look.outline);
-            const float y = std::clamp(shared::blade_curve(v1, v2, v).y, 0.0f, set.canopy_m);
-            const glm::vec3 upright = shared::blade_tangent(v1, v2, v);
-            const glm::vec3 turn = shared::bend_turn(y, set.canopy_m, {wind.x, wind.y}, wind.w);
-            parts.push_back({species, shared::blade_albedo(look, {blade.root.z, blade.root.w}, v, 0),
-                             glm::normalize(glm::vec3(upright.x, 0, upright.z) + upright.y * turn), y / set.canopy_m,
+            parts.push_back({species, shared::blade_albedo(look, {blade.root.z, blade.root.w}, v, 0), shared::blade_tangent(v1, v2, v),
+                             std::clamp(shared::blade_curve(v1, v2, v).y, 0.0f, set.canopy_m),
                              blade.v1.w * shared::blade_width_at(v, look.outline) * blade.shape.y});
         }
+    }
+    return parts;
+}
+
+/// Texels of an array's mip 0 as parts; `image` of `height` in metres, or a slice where that is below 0.
+void add_texels(const grass::GrassSet& set, const grass::TextureArray& array, int image, float height, std::vector<RestPart>& parts) {
+    const std::size_t texels = static_cast<std::size_t>(array.width) * static_cast<std::size_t>(array.height);
+    const std::uint8_t* id = array.mips[0].data() + 4 * texels * static_cast<std::size_t>(image);
+    const std::uint8_t* shape = id + 4 * texels;
+    for (std::size_t t = 0; t < texels; ++t) {
+        if (id[4 * t] == 0) {
+            continue;
+        }
+        const auto species = std::min(static_cast<std::size_t>(shared::decode_species(id[4 * t + 3])), set.species.size() - 1);
+        const float v = shared::decode_along(id[4 * t + 3]);
+        const float row = (static_cast<float>(t / static_cast<std::size_t>(array.width)) + 0.5f) / static_cast<float>(array.height);
+        parts.push_back({species, shared::blade_albedo(set.species[species].look, {0.5f, 0.5f}, v, 0),
+                         shared::decode_tangent(glm::vec2(shape[4 * t], shape[4 * t + 1]) / 255.0f),
+                         height < 0 ? row * set.canopy_m : height, static_cast<float>(id[4 * t])});
+    }
+}
+
+/// A far-only set has no blades: the texels of its coarsest level stand for them.
+std::vector<RestPart> parts_of_textures(const grass::GrassSet& set) {
+    const grass::FarLevel& level = set.levels.back();
+    if (level.layers.format != grass::TexelFormat::kRgba8 || level.layers.mips.empty()) {
+        return {};
+    }
+    std::vector<RestPart> all;
+    for (int i = 0; i < level.layer_count; ++i) {
+        add_texels(set, level.layers, shared::layer_index(0, i, level.layer_count, 0), level.layer_heights[static_cast<std::size_t>(i)], all);
+    }
+    for (const int axis : {shared::kAxisX, shared::kAxisZ}) {
+        for (int i = 0; i < level.slice_count; ++i) {
+            add_texels(set, level.slices, shared::slice_index(0, axis, i, level.slice_count, 0), -1, all);
+        }
+    }
+    std::vector<RestPart> parts;
+    for (std::size_t n = 0; n < kBlades * kPlaces && !all.empty(); ++n) {
+        parts.push_back(all[all.size() * n / (kBlades * kPlaces)]);
+    }
+    return parts;
+}
+
+/// The parts as they stand in the mean wind.
+std::vector<Part> bent(const std::vector<RestPart>& rest, float canopy_m, const glm::vec4& wind) {
+    std::vector<Part> parts;
+    for (const RestPart& part : rest) {
+        const glm::vec3 turn = shared::bend_turn(part.y, canopy_m, {wind.x, wind.y}, wind.w);
+        parts.push_back({part.species, part.albedo,
+                         glm::normalize(glm::vec3(part.upright.x, 0, part.upright.z) + part.upright.y * turn), part.y / canopy_m,
+                         part.area});
     }
     return parts;
 }
@@ -129,13 +178,16 @@ glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation) {
     });
 }
 
+FarAppearance::FarAppearance(const grass::GrassSet& set)
+    : set_(set), rest_(set.blades.empty() ? parts_of_textures(set) : parts_of_blades(set)) {}
+
 void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
     if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_) {
         return;
     }
     light_ = light;
     wind_ = wind.mean;
-    const std::vector<Part> parts = parts_of(set_, wind_);
+    const std::vector<Part> parts = bent(rest_, set_.canopy_m, wind_);
     std::vector<glm::vec4> texels;
     for (int e = 0; e < kElevations; ++e) {
         for (int a = 0; a < kAzimuths; ++a) {
