@@ -59,7 +59,7 @@ int run_import(const ImportOptions& options) {
     ImportQuery query{options.name, options.density, options.size, options.layers, options.slices, options.levels, options.threads};
     if (query.name.empty())
         query.name = volume.preset.empty() ? plain_name(options.input) : volume.preset;
-    const grass::GrassSet set = import_volume(volume, query, options.input);
+    grass::GrassSet set = import_volume(volume, query, options.input);
     Preset preset;
     preset.name = set.name;
     preset.side_m = set.side_m;
@@ -67,6 +67,10 @@ int run_import(const ImportOptions& options) {
     bake.threads = options.threads;
     bake.volume = false;
     bake.preview = options.preview;
+    bake.compression = options.compression.zstd_level;
+    bake.block = options.compression.block;
+    if (bake.block)
+        compress_shapes(set, options.threads);
     write_set(set, preset, options.output, bake);
     if (options.json)
         fmt::print("{}\n", nlohmann::ordered_json({{"set", options.output.string()},

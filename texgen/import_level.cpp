@@ -17,18 +17,23 @@ namespace {
 
 using grass::TextureArray;
 
-/// A texel of a slab while voxels are thrown onto it. Pieces of one strand lie beside each other and add up, different
-/// strands cover each other by chance.
-class Pile {
+/// A few strands with what each covers; the least gives way when there are more.
+template<std::size_t kParts> class Tally {
 public:
-    void add(std::uint32_t strand, std::uint32_t voxel, float share) {
+    struct Part {
+        std::uint32_t strand = 0, voxel = 0;
+        float sum = 0, most = 0;
+    };
+    /// Returns what the strand that had to give way has covered.
+    float add(std::uint32_t strand, std::uint32_t voxel, float share) {
         Part* part = nullptr;
         for (Part& p : parts_)
             if (p.sum > 0 && p.strand == strand)
                 part = &p;
+        float gone = 0;
         if (!part) {
             part = &*std::ranges::min_element(parts_, {}, &Part::sum);
-            settle(*part);
+            gone = part->sum;
             *part = {strand, voxel, 0, 0};
         }
         part->sum += share;
@@ -36,29 +41,33 @@ public:
             part->most = share;
             part->voxel = voxel;
         }
+        return gone;
     }
-    /// Coverage and the voxel that stands for the texel; -1: empty.
-    std::pair<float, std::int64_t> finish() {
-        for (const Part& part : parts_)
-            settle(part);
-        return {1 - clear_, best_ > 0 ? std::int64_t{voxel_} : -1};
-    }
+    [[nodiscard]] const Part& largest() const { return *std::ranges::max_element(parts_, {}, &Part::sum); }
+    [[nodiscard]] const std::array<Part, kParts>& parts() const { return parts_; }
 
 private:
-    struct Part {
-        std::uint32_t strand = 0, voxel = 0;
-        float sum = 0, most = 0;
-    };
-    void settle(const Part& part) {
-        clear_ *= 1 - std::min(1.0f, part.sum);
-        if (part.sum > best_) {
-            best_ = part.sum;
-            voxel_ = part.voxel;
-        }
+    std::array<Part, kParts> parts_;
+};
+
+/// The voxels of a slab behind each other. Pieces of one strand lie beside each other and add up, different strands hide
+/// each other by chance.
+class Column {
+public:
+    void add(std::uint32_t strand, std::uint32_t voxel, float share) {
+        clear_ *= 1 - std::min(1.0f, tally_.add(strand, voxel, share));
     }
-    std::array<Part, 3> parts_;
-    float clear_ = 1, best_ = 0;
-    std::uint32_t voxel_ = 0;
+    [[nodiscard]] float coverage() const {
+        float clear = clear_;
+        for (const auto& part : tally_.parts())
+            clear *= 1 - std::min(1.0f, part.sum);
+        return 1 - clear;
+    }
+    [[nodiscard]] const Tally<3>::Part& largest() const { return tally_.largest(); }
+
+private:
+    Tally<3> tally_;
+    float clear_ = 1;
 };
 
 /// Texels that a run of cells touches along one axis, with the part of the texel that it fills.
@@ -80,17 +89,12 @@ public:
 
     /// Mip 0; a texel's `blade` is an index into records().
     TexelImage draw() {
-        piles_.assign(static_cast<std::size_t>(slab_.width) * static_cast<std::size_t>(slab_.height), {});
+        const glm::ivec3 cells = field_.volume().cells;
+        columns_.assign(static_cast<std::size_t>(cells[axes_.u]) * static_cast<std::size_t>(cells[axes_.v]), {});
         direction_ = glm::vec3(0);
         direction_[axes_.slab] = 1;
         throw_voxels();
-        TexelImage image{slab_.width, slab_.height, std::vector<Texel>(piles_.size())};
-        for (std::size_t t = 0; t < piles_.size(); ++t) {
-            const auto [coverage, voxel] = piles_[t].finish();
-            if (voxel >= 0)
-                image.texels[t] = {coverage, record(static_cast<std::size_t>(voxel)), field_.along(static_cast<std::size_t>(voxel))};
-        }
-        return image;
+        return spread_columns();
     }
     /// Of every texel's piece: what the coder needs of a blade.
     [[nodiscard]] const std::vector<shared::BladeRecord>& records() const { return records_; }
@@ -130,16 +134,43 @@ private:
         seen = field_.blades() ? static_cast<float>(seen * inside) : static_cast<float>(1 - std::pow(1 - seen, inside));
         if (!(seen > 0))
             return;
-        // A texel smaller than a voxel is covered as densely, a larger one by the voxel's part of it.
-        const Cover u(at[axes_.u] * voxel, (at[axes_.u] + 1) * voxel, slab_.texel_u, slab_.width);
-        const Cover v(at[axes_.v] * voxel, (at[axes_.v] + 1) * voxel, slab_.texel_v, slab_.height);
         const std::uint32_t strand = field_.blades() ? field_.strand(i) : i; // a cloud's voxels hide each other by chance
-        for (int row = v.first; row <= v.last; ++row)
-            for (int column = u.first; column <= u.last; ++column)
-                if (const float share = seen * u.part(column) * v.part(row); share > 0)
-                    piles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(slab_.width) +
-                           static_cast<std::size_t>(column)]
-                        .add(strand, i, share);
+        columns_[static_cast<std::size_t>(at[axes_.v]) * static_cast<std::size_t>(field_.volume().cells[axes_.u]) +
+                 static_cast<std::size_t>(at[axes_.u])]
+            .add(strand, i, seen);
+    }
+
+    /// Columns stand beside each other: a texel has the mean of those in it, and the strand that covers most.
+    TexelImage spread_columns() {
+        const glm::ivec3 cells = field_.volume().cells;
+        const double voxel = field_.volume().voxel_m;
+        TexelImage image{slab_.width, slab_.height, std::vector<Texel>(static_cast<std::size_t>(slab_.width) * static_cast<std::size_t>(slab_.height))};
+        std::vector<Tally<4>> tallies(image.texels.size());
+        for (int cv = 0; cv < cells[axes_.v]; ++cv) {
+            const Cover v(cv * voxel, (cv + 1) * voxel, slab_.texel_v, slab_.height);
+            for (int cu = 0; cu < cells[axes_.u]; ++cu) {
+                const Column& column = columns_[static_cast<std::size_t>(cv) * static_cast<std::size_t>(cells[axes_.u]) + static_cast<std::size_t>(cu)];
+                const float coverage = column.coverage();
+                if (!(coverage > 0))
+                    continue;
+                const Cover u(cu * voxel, (cu + 1) * voxel, slab_.texel_u, slab_.width);
+                const std::uint32_t best = column.largest().voxel;
+                for (int row = v.first; row <= v.last; ++row)
+                    for (int x = u.first; x <= u.last; ++x) {
+                        const float share = coverage * u.part(x) * v.part(row);
+                        const std::size_t t = static_cast<std::size_t>(row) * static_cast<std::size_t>(slab_.width) + static_cast<std::size_t>(x);
+                        image.texels[t].coverage += share;
+                        if (share > 0)
+                            (void)tallies[t].add(field_.strand(best), best, share);
+                    }
+            }
+        }
+        for (std::size_t t = 0; t < tallies.size(); ++t)
+            if (Texel& texel = image.texels[t]; texel.coverage > 0) {
+                const std::size_t voxel_index = tallies[t].largest().voxel;
+                texel = {std::min(texel.coverage, 1.0f), record(voxel_index), field_.along(voxel_index)};
+            }
+        return image;
     }
 
     std::int32_t record(std::size_t i) {
@@ -161,7 +192,7 @@ private:
     const Slab& slab_;
     Axes axes_;
     glm::vec3 direction_{0};
-    std::vector<Pile> piles_;
+    std::vector<Column> columns_;
     std::vector<shared::BladeRecord> records_;
     std::vector<std::int32_t> strands_; ///< of each record, numbered within the slab
     std::unordered_map<std::uint32_t, std::int32_t> strand_numbers_;

@@ -233,6 +233,8 @@ void declare_import(CLI::App& app, Options& o) {
             throw usage("--name", text, "1 to 64 letters, digits, - and _");
         o.import.name = text;
     });
+    declare(app, "--compression", "none|zstd|zstd:N|bc", "of the textures, as for a preset",
+            [&o](const std::string& text) { o.import.compression = parse_compression(text); });
     app.add_flag_callback("--no-preview", [&o] { o.import.preview = false; }, "leave out preview.png");
     declare_common(app, o.import);
 }

@@ -41,16 +41,9 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     };
     for (std::size_t k = 0; k < set.levels.size(); ++k) {
         const grass::FarLevel& level = set.levels[k];
-<<<<<<< HEAD
         const int number = static_cast<int>(k);
         add(grass::layers_file(number), level.layers);
-        if (k == 0 && options.volume)
-=======
-        parts.push_back({grass::layers_file(static_cast<int>(k)), [&level, &options] {
-                             return grass::encode_ktx2(level.layers, options.compression);
-                         }});
         if (k == 0 && options.volume && !set.blades.empty())
->>>>>>> 6ffea2d (texgen: seam and import)
             parts.push_back({grass::kVolumeFile, [&set] { return encode_volume(set); }});
         add(grass::slices_file(number), level.slices);
     }
