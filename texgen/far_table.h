@@ -15,6 +15,9 @@ struct FarTable {
 };
 [[nodiscard]] FarTable far_table(const Canopy& canopy, int threads);
 
+/// Rows of a far table before anything is known but their elevations and the slices' shares.
+[[nodiscard]] std::vector<grass::FarRow> empty_far_rows();
+
 /// Fills the far rows' shares, so that the textures of each level cover what the rays of the row
 /// met, or as near as shells can bring them. Lists the rows at verbosity -v.
 void calibrate_shells(grass::GrassSet& set, int threads);

@@ -3,6 +3,7 @@
 // follow the locale and take an empty text for 0.
 #include "texgen/options.h"
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <memory>
@@ -168,9 +169,48 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
     declare_common(app, o);
 }
 
+/// A finite number in [low, high], read without a locale.
+void declare_real(CLI::App& app, const std::string& name, const std::string& help, std::pair<double, double> range, double& out) {
+    declare(app, name, "N", help, [=, &out](const std::string& text) {
+        const std::string expected = fmt::format("a number from {} to {}", range.first, range.second);
+        double value = 0;
+        const char* end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        if (error != std::errc() || stop != end || !(value >= range.first && value <= range.second))
+            throw usage(name, text, expected);
+        out = value;
+    });
+}
+
+void declare_count(CLI::App& app, const std::string& name, const std::string& help, std::pair<int, int> range, int& out) {
+    declare(app, name, "N", help, [=, &out](const std::string& text) {
+        const std::string expected = fmt::format("a whole number from {} to {}", range.first, range.second);
+        const std::int64_t n = whole_number(name, text, expected);
+        if (n < range.first || n > range.second)
+            throw usage(name, text, expected);
+        out = static_cast<int>(n);
+    });
+}
+
+void declare_cut(CLI::App& app, double& cut) {
+    declare_real(app, "--cut", "border that is laid over the other side: a share of the side below 1, else texels", {0, 8192}, cut);
+}
+
+void declare_up(CLI::App& app, bool& z_up) {
+    declare(app, "--up", "AXIS", "the file's upward axis, y (default) or z (Blender)", [&z_up](const std::string& text) {
+        if (text != "y" && text != "z")
+            throw usage("--up", text, "y or z");
+        z_up = text == "z";
+    });
+}
+
 void declare_seam(CLI::App& app, Options& o) {
-    declare_path(app, "IN", "IN", "layer stack or .vdb to be made seamless", o.seam.input)->required();
-    declare_path(app, "-o,--output", "OUT", "the result", o.seam.output)->required();
+    declare_path(app, "IN", "IN", "what is to be made seamless: a directory of pictures, a pattern (layer.%04d.png), a picture or a .vdb", o.seam.input)->required();
+    declare_path(app, "-o,--output", "OUT", "a directory for a stack, a file for a picture or a .vdb",
+                 [&o](const fs::path& path) { o.seam.output = directory_name(path); })
+        ->required();
+    declare_cut(app, o.seam.cut);
+    declare_up(app, o.seam.z_up);
     declare_common(app, o.seam);
 }
 
@@ -179,6 +219,31 @@ void declare_import(CLI::App& app, Options& o) {
     declare_path(app, "-o,--output", "DIR", "directory of the grass set",
                  [&o](const fs::path& path) { o.import.output = directory_name(path); })
         ->required();
+    declare_up(app, o.import.z_up);
+    declare_real(app, "--scale", "metres a unit of the file", {1e-6, 1e6}, o.import.scale);
+    declare_real(app, "--density", "factor on the file's density: 1 is an opaque voxel", {1e-6, 1e6}, o.import.density);
+    declare(app, "--size", "N", "texels a side at level 0, a power of two; default nearest to the voxels", [&o](const std::string& text) {
+        const std::int64_t n = whole_number("--size", text, "a power of two from 32 to 2048");
+        if (n < 32 || n > 2048 || (n & (n - 1)) != 0)
+            throw usage("--size", text, "a power of two from 32 to 2048");
+        o.import.size = static_cast<int>(n);
+    });
+    declare_count(app, "--layers", "horizontal layers at level 0", {2, 256}, o.import.layers);
+    declare_count(app, "--slices", "vertical slices an axis at level 0", {2, 256}, o.import.slices);
+    declare_count(app, "--levels", "levels, each of half the size, layers and slices", {1, 4}, o.import.levels);
+    app.add_flag("--seam", o.import.seam, "make the volume periodic first, as texgen seam does");
+    declare_cut(app, o.import.cut);
+    declare(app, "--name", "NAME", "name of the set", [&o](const std::string& text) {
+        const bool plain = !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
+        });
+        if (!plain)
+            throw usage("--name", text, "1 to 64 letters, digits, - and _");
+        o.import.name = text;
+    });
+    declare(app, "--compression", "none|zstd|zstd:N|bc", "of the textures, as for a preset",
+            [&o](const std::string& text) { o.import.compression = parse_compression(text); });
+    app.add_flag_callback("--no-preview", [&o] { o.import.preview = false; }, "leave out preview.png");
     declare_common(app, o.import);
 }
 

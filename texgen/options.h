@@ -52,14 +52,28 @@ struct BakeCommandOptions : CommonOptions {
 
 /// `texgen seam IN -o OUT`.
 struct SeamOptions : CommonOptions {
-    std::filesystem::path input;
+    std::filesystem::path input; ///< a directory, a pattern, a picture or a .vdb
     std::filesystem::path output;
+    double cut = 0.125;          ///< share of the side below 1, else texels
+    bool z_up = false;           ///< of a .vdb
 };
 
 /// `texgen import FILE.vdb -o SET`.
 struct ImportOptions : CommonOptions {
     std::filesystem::path input;
     std::filesystem::path output;
+    std::string name;            ///< of the set; empty: the file's own, else its name
+    bool z_up = false;
+    double scale = 1;            ///< metres a unit of the file
+    double density = 1;          ///< factor on the density
+    int size = 0;                ///< texels a side at level 0; 0: the power of two nearest to the voxels
+    int layers = 16;
+    int slices = 16;
+    int levels = 4;
+    bool seam = false;
+    double cut = 0.125;          ///< as SeamOptions
+    Compression compression;
+    bool preview = true;
 };
 
 /// `texgen inspect SET`.

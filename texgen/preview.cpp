@@ -10,6 +10,7 @@
 #include "assets/assets.h"
 #include "base/hash.h"
 #include "shared/shading.h"
+#include "texgen/flat_rays.h"
 #include "texgen/parallel.h"
 #include "texgen/rays.h"
 
@@ -197,12 +198,38 @@ Canvas mip_view(const grass::GrassSet& set, const Shader& shader, int mip) {
     return canvas;
 }
 
-/// Rays through the blades themselves from knee height.
+/// What a ray sees of the grass: of its blades, or of the textures of a far-only set, upright there.
+class Sight {
+public:
+    Sight(const grass::GrassSet& set, const Shader& shader)
+        : set_(set), shader_(shader), blades_(std::span(set.blades).subspan(0, set.variant_begin[1]), shader.looks(), set.side_m, set.canopy_m),
+          textures_(set, 0, 0, {}) {}
+
+    [[nodiscard]] std::optional<dvec3> colour(dvec3 eye, dvec3 direction, std::uint64_t ray) const {
+        if (set_.blades.empty()) {
+            const auto hit = textures_.cast(eye, direction, ray);
+            return hit ? std::optional(shader_.colour({0, 0.5, 0.5, hit->along}, dvec3(0, 1, 0), hit->height / set_.canopy_m)) : std::nullopt;
+        }
+        const auto hit = blades_.cast(eye, direction);
+        if (!hit)
+            return std::nullopt;
+        const shared::BladeRecord& blade = set_.blades[hit->blade];
+        const dvec3 tangent = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), static_cast<float>(hit->along));
+        return shader_.colour({species_of(blade), blade.root.z, blade.root.w, hit->along}, tangent, hit->position.y / set_.canopy_m);
+    }
+
+private:
+    const grass::GrassSet& set_;
+    const Shader& shader_;
+    BladeField blades_;
+    FlatField textures_;
+};
+
+/// Rays through the grass from knee height.
 Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads) {
     constexpr int kSide = 2; // samples
     Canvas canvas(kPanel * 3 / 2, kPanel, dvec3(0));
-    const BladeField field(std::span(set.blades).subspan(0, set.variant_begin[1]), shader.looks(),
-                           set.side_m, set.canopy_m);
+    const Sight sight(set, shader);
     const double canopy = set.canopy_m;
     const dvec3 eye(0.3, canopy * 3.2, 0.2);
     const double pitch = -0.50, focal = 1.4;
@@ -221,15 +248,8 @@ Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads
                                        v * (std::cos(pitch) * up - std::sin(pitch) * ahead);
                     const dvec3 direction = glm::normalize(view);
                     dvec3 colour = direction.y > -0.02 ? kSky * 0.3 : Shader::ground();
-                    if (const auto hit =
-                            direction.y < -0.02 ? field.cast(eye, direction) : std::nullopt) {
-                        const shared::BladeRecord& blade = set.blades[hit->blade];
-                        const dvec3 tangent =
-                            shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2),
-                                                  static_cast<float>(hit->along));
-                        colour = shader.colour({species_of(blade), blade.root.z, blade.root.w, hit->along}, tangent,
-                                               hit->position.y / canopy);
-                    }
+                    if (direction.y < -0.02)
+                        colour = sight.colour(eye, direction, row * 4096 + static_cast<std::uint64_t>(4 * x + s)).value_or(colour);
                     canvas.at(x, static_cast<int>(row)) +=
                         colour / static_cast<double>(kSide * kSide);
                 }

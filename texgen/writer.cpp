@@ -45,7 +45,7 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
         const grass::FarLevel& level = set.levels[k];
         const int number = static_cast<int>(k);
         add(grass::layers_file(number), level.layers);
-        if (k == 0 && options.volume)
+        if (k == 0 && options.volume && !set.blades.empty())
             parts.push_back({grass::kVolumeFile, [&set] { return encode_volume(set); }});
         add(grass::slices_file(number), level.slices);
     }
@@ -59,9 +59,10 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
                                  return grass::encode_ktx2(*shapes, options.compression);
                              }});
     }
-    parts.push_back({grass::kBladesFile, [&set] {
-                         return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
-                     }});
+    if (!set.blades.empty()) // an imported volume's set is far-only
+        parts.push_back({grass::kBladesFile, [&set] {
+                             return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
+                         }});
     parts.push_back({grass::kFarLightFile, [&set, &options] {
                          return grass::encode_ktx2(grass::encode_far_light(set.far_light), options.compression);
                      }});

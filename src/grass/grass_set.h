@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -106,5 +107,8 @@ struct GrassSet {
 /// Reads a set's directory. Every file's SHA-256 is checked against set.json before it is parsed (volume.vdb is not read).
 /// Throws Error: kIo missing, kBadInput damaged or of another format version, kOverLimit.
 [[nodiscard]] GrassSet read_grass_set(const std::filesystem::path& directory);
+
+/// One file of a set's directory, after its size and SHA-256 have been compared with set.json. Throws likewise.
+[[nodiscard]] std::vector<std::byte> read_set_file(const std::filesystem::path& directory, const std::string& name);
 
 } // namespace sward::grass

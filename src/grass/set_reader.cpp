@@ -311,13 +311,7 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
     }
 }
 
-} // namespace
-
-GrassSet read_grass_set(const fs::path& directory) {
-    const SetJson set(directory / kSetJson);
-    GrassSet out;
-    read_head(set, out);
-    read_far(set, out);
+void read_blades(const SetJson& set, const fs::path& directory, GrassSet& out) {
     BladeList list = decode_blades(verified_file(set, directory, kBladesFile),
                                    directory / kBladesFile, out.side_m);
     if (static_cast<int>(list.variant_begin.size()) != out.variants + 1)
@@ -330,6 +324,22 @@ GrassSet read_grass_set(const fs::path& directory) {
             blade.shape.w != std::floor(blade.shape.w))
             set.refuse("species", fmt::format("a blade of number {}", blade.shape.w),
                        fmt::format("a whole number below {}", out.species.size()));
+}
+
+} // namespace
+
+std::vector<std::byte> read_set_file(const fs::path& directory, const std::string& name) {
+    return verified_file(SetJson(directory / kSetJson), directory, name);
+}
+
+GrassSet read_grass_set(const fs::path& directory) {
+    const SetJson set(directory / kSetJson);
+    GrassSet out;
+    read_head(set, out);
+    read_far(set, out);
+    out.variant_begin.assign(static_cast<std::size_t>(out.variants) + 1, 0);
+    if (set.whole(set.root(), "blades", 0, 1 << 30) > 0) // a far-only set has none, and no such file
+        read_blades(set, directory, out);
     read_far_light(set, directory, out);
     read_levels(set, directory, out);
     return out;

@@ -16,6 +16,9 @@ namespace {
 
 /// Bend per m/s, from the mean stiffness of the set: every blade answers alike, so that both tiers lean alike.
 double wind_response(const grass::GrassSet& set) {
+    if (set.blades.empty()) { // far-only: as grass of middling stiffness
+        return 0.14 * (1.3 - 0.6);
+    }
     double stiffness = 0;
     for (const shared::BladeRecord& blade : set.blades) {
         stiffness += blade.v2.w;
@@ -25,6 +28,9 @@ double wind_response(const grass::GrassSet& set) {
 }
 
 double mean_width(const grass::GrassSet& set) {
+    if (set.blades.empty()) { // a texel is as wide as a blade
+        return set.side_m / static_cast<double>(set.levels.front().layers.width);
+    }
     double sum = 0;
     for (const shared::BladeRecord& blade : set.blades) {
         sum += 2.0 * blade.v1.w;
@@ -77,7 +83,13 @@ Renderer::Renderer(World world) {
 }
 Renderer::~Renderer() = default;
 
-void Renderer::draw(const View& view, const FrameSettings& settings) { impl_->draw_frame(view, settings); }
+void Renderer::draw(const View& view, const FrameSettings& settings) {
+    FrameSettings own = settings;
+    if (impl_->world.grass.blades.empty() && own.tiers == Tiers::kAll) {
+        own.tiers = Tiers::kShells; // a far-only set: the far tier from the eye's feet on
+    }
+    impl_->draw_frame(view, own);
+}
 
 void Renderer::present(std::uint32_t fbo, int x, int y) {
     const Targets& targets = impl_->targets;

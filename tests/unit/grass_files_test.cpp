@@ -17,7 +17,6 @@
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 #include "grass_fixture.h"
-#include "texgen/volume.h"
 
 namespace sward::texgen {
 namespace {
@@ -203,20 +202,6 @@ TEST(BladesGlb, RefusesCutDeepAndOutsideValues) {
     const auto bad = grass::encode_blades(patch.blades, patch.variant_begin, 2);
     EXPECT_EQ(error_of([&] { (void)grass::decode_blades(bad, "nan.glb", 2); }).first,
               ExitCode::kBadInput);
-}
-
-TEST(Volume, HoldsTheBladesArea) {
-    const grass::GrassSet& set = small_set();
-    const VolumeInfo info = inspect_volume(encode_volume(set));
-    EXPECT_EQ(info.grids, (std::vector<std::string>{"density", "tangent", "rank", "seed"}));
-    EXPECT_NEAR(info.voxel_m, 2.0 / 256, 1e-9);
-    double area = 0;
-    for (std::uint32_t b = 0; b < set.variant_begin[1];
-         ++b) // the outline 1 - v^2 keeps two thirds of the width
-        area += set.blades[b].shape.y * set.blades[b].v1.w * 2 * 2 / 3;
-    EXPECT_NEAR(info.density_sum * info.voxel_m * info.voxel_m, area,
-                0.05 * area); // some voxels are full
-    EXPECT_GT(info.active_voxels, 10000u);
 }
 
 std::map<std::string, std::string> hashes(const fs::path& directory) {

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "texgen/import.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "texgen/far_table.h"
+#include "texgen/import_field.h"
+#include "texgen/parallel.h"
+#include "texgen/preset.h"
+#include "texgen/step_timer.h"
+
+namespace sward::texgen {
+namespace {
+
+constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 31; // of the box: the index takes 12 bytes for 64 of them
+constexpr int kMinSize = 32, kMaxSize = 2048;
+
+/// Colour over the place along the blade, by least squares, and how far single voxels are from it.
+struct ColourFit {
+    glm::dvec3 root{0}, tip{0};
+    double variation = 0; ///< standard deviation of the value, relative
+};
+
+ColourFit fit_colours(const VoxelField& field) {
+    const std::vector<glm::vec3>& colours = field.volume().colour;
+    double w = 0, v = 0, vv = 0;
+    glm::dvec3 c(0), cv(0);
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        const double weight = field.density(i), at = field.along(i);
+        w += weight;
+        v += weight * at;
+        vv += weight * at * at;
+        c += weight * glm::dvec3(colours[i]);
+        cv += weight * at * glm::dvec3(colours[i]);
+    }
+    const double spread = w * vv - v * v;
+    ColourFit fit;
+    const glm::dvec3 slope = spread > 1e-9 * w * w ? (w * cv - v * c) / spread : glm::dvec3(0);
+    fit.root = (c - slope * v) / w;
+    fit.tip = fit.root + slope;
+    double error = 0;
+    for (std::size_t i = 0; i < field.size(); ++i) {
+        const glm::dvec3 mean = glm::mix(fit.root, fit.tip, static_cast<double>(field.along(i)));
+        const double expected = mean.x + mean.y + mean.z;
+        const glm::vec3& found = colours[i];
+        const double off = expected > 1e-6 ? (found.x + found.y + found.z) / expected - 1 : 0;
+        error += field.density(i) * off * off;
+    }
+    fit.variation = std::sqrt(error / w);
+    fit.root = glm::clamp(fit.root, 0.0, 1.0);
+    fit.tip = glm::clamp(fit.tip, 0.0, 1.0);
+    return fit;
+}
+
+shared::GrassAppearance appearance_of(const VoxelField& field) {
+    shared::GrassAppearance look = appearance(Species{});
+    if (field.volume().colour.empty())
+        return look;
+    const ColourFit fit = fit_colours(field);
+    // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard deviation is 0.7 / sqrt 12.
+    const double variation = std::clamp(fit.variation / (0.7 / std::sqrt(12.0)), 0.0, 1.0);
+    look.root = shared::vec4(glm::vec3(fit.root), 0); // no share of dry blades: the voxels' own mean holds them
+    look.tip = shared::vec4(glm::vec3(fit.tip), static_cast<float>(variation));
+    look.dry = shared::vec4(glm::vec3(fit.tip), look.dry.w);
+    return look;
+}
+
+int nearest_size(int cells) {
+    const int below = static_cast<int>(std::bit_floor(static_cast<unsigned>(cells)));
+    return std::clamp(cells - below < 2 * below - cells ? below : 2 * below, kMinSize, kMaxSize);
+}
+
+void check(const Volume& volume, const ImportQuery& query, const std::filesystem::path& file) {
+    const auto refuse = [&](base::ExitCode code, const char* what, const std::string& found, const std::string& expected) {
+        throw base::input_error(code, file, 0, what, found, expected);
+    };
+    if (volume.at.empty())
+        refuse(base::ExitCode::kBadInput, "volume", "no voxel", "some grass");
+    if (volume.cells.x != volume.cells.z)
+        refuse(base::ExitCode::kBadInput, "volume", fmt::format("{} x {} voxels from above", volume.cells.x, volume.cells.z),
+               "a square patch: --seam cuts it square");
+    const std::uint64_t cells = static_cast<std::uint64_t>(volume.cells.x) * static_cast<std::uint64_t>(volume.cells.y) *
+                                static_cast<std::uint64_t>(volume.cells.z);
+    if (cells > kMaxCells)
+        refuse(base::ExitCode::kOverLimit, "volume", fmt::format("a box of {} voxels", cells), fmt::format("at most {}", kMaxCells));
+    const double side = volume.cells.x * volume.voxel_m, canopy = volume.cells.y * volume.voxel_m;
+    if (!(side >= 0.01 && side <= 1000) || !(canopy >= 0.0001 && canopy <= 100))
+        refuse(base::ExitCode::kBadInput, "volume", fmt::format("{} m wide and {} m high", side, canopy),
+               "0.01 to 1000 m and up to 100 m: see --scale and --up");
+    if (canopy > 2 * side)
+        refuse(base::ExitCode::kBadInput, "volume", fmt::format("{} m wide and {} m high", side, canopy),
+               "a patch at least half as wide as it is high: see --up");
+    std::uint64_t bytes = 0; // as the reader counts them
+    for (int k = 0; k < query.levels; ++k) {
+        const auto size = static_cast<std::uint64_t>(query.size >> k);
+        const auto rows = static_cast<std::uint64_t>(canopy / side * static_cast<double>(size)) + 8;
+        bytes += 11 * size * (size * static_cast<std::uint64_t>(query.layers >> k) + rows * 2 * static_cast<std::uint64_t>(query.slices >> k));
+    }
+    if (bytes > std::uint64_t{2} << 30 || static_cast<double>(query.size) * canopy / side > kMaxSize)
+        refuse(base::ExitCode::kOverLimit, "textures", fmt::format("{} bytes at --size {}", bytes, query.size),
+               "at most 2 GiB and slices of 2048 rows: a smaller --size, fewer --layers or --slices");
+}
+
+} // namespace
+
+grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, const std::filesystem::path& file) {
+    ImportQuery query = given;
+    if (query.size == 0)
+        query.size = nearest_size(std::max(1, volume.cells.x));
+    while (query.levels > 1 && query.size >> (query.levels - 1) < 8)
+        --query.levels;
+    check(volume, query, file);
+    const StepTimer timer("import");
+    const VoxelField field(volume, query.density);
+    grass::GrassSet set;
+    set.name = query.name;
+    set.seed = volume.set_seed;
+    set.side_m = static_cast<float>(field.side());
+    set.canopy_m = std::nextafter(static_cast<float>(field.canopy()), 1e9f);
+    set.variants = 1;
+    set.variant_begin = {0, 0};
+    set.species.push_back({"imported", "blade", 1, appearance_of(field)});
+    const double slab = field.side() / std::max(4, query.slices >> (query.levels - 1));
+    const double texel = field.side() / (query.size >> (query.levels - 1));
+    set.offset_range_m = static_cast<float>(field.farthest_root() + std::max(slab, texel) / 2 + texel / 2 + volume.voxel_m);
+    const std::vector<double> seen = heights_seen(field, query.threads);
+    for (int k = 0; k < query.levels; ++k)
+        set.levels.push_back(project_level(field, query, k, set, seen));
+    FarTable table = far_table(voxel_canopy(field, set.species.front().look), query.threads);
+    set.far = std::move(table.rows);
+    set.far_light = std::move(table.light);
+    calibrate_shells(set, query.threads);
+    return set;
+}
+
+} // namespace sward::texgen
