@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/hash.h"
+#include "shared/shading.h"
 #include "texgen/canopy.h"
 #include "texgen/far_table.h"
 #include "texgen/parallel.h"
