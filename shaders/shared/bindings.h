@@ -7,6 +7,7 @@
 #define BIND_FRAME 0
 #define BIND_SURFACE 1
 #define BIND_WIND_GRID 2       // WindGrid: the fluid that the wind passes work on
+#define BIND_WIND_FIELD 3      // WindField: the ambient wind at a window's rim
 
 // Storage blocks; GL 4.5 promises 0 to 7.
 #define BIND_BLADES 0          // BladeRecord[], the set's
@@ -25,6 +26,32 @@
 #define BIND_WIND_SOLID 2      // uint[]: 0 air, else solid
 #define BIND_WIND_SOLID_VELOCITY 3 // vec2[]
 #define BIND_WIND_FORCES 4     // what pushes the air; 4 to 7 are free for a pass's own buffers
+#define BIND_WIND_SOLIDS 4     // WindSolid[]: what stands in it
+#define BIND_WIND_TILES 5      // ivec4[]: tiles that a force or solid touches
+#define BIND_WIND_TILE_ITEMS 6 // uint[]: numbers of the forces or solids of each tile
+#define BIND_WIND_INFLOW 7     // float[]: divergence that radial sources bring
+#define BIND_WIND_FOOTPRINTS 7 // uint[]: bits of meshes' footprints
+#define BIND_WIND_U_NEXT 4     // float[], written by the advection
+#define BIND_WIND_V_NEXT 5
+#define BIND_WIND_NEXT_PRESSURE 3 // float[]: of the next Jacobi sweep, in the published scheme
+#define BIND_WIND_LAST_PRESSURE 2 // float[]: of the last step, for the advection
+#define BIND_WIND_DIRECTION 0  // float[]: conjugate gradients: last direction of search, the next one, its product with
+#define BIND_WIND_NEXT_DIRECTION 1 // the operator, sums of workgroups and what follows from them
+#define BIND_WIND_PRODUCT 2
+#define BIND_WIND_PARTIALS 3   // vec2[]
+#define BIND_WIND_SCALARS 7    // alpha, beta, last (residual, correction)
+#define BIND_WIND_U_CARRIED 5  // float[]: what the next advection carries, written by the projection
+#define BIND_WIND_V_CARRIED 7
+#define BIND_WIND_V_ENTERING 6 // the same, of cells that the window comes to
+#define BIND_WIND_PRESSURE 4   // float[]: pressure * step / (density * cell)
+#define BIND_WIND_PHI 4        // float[]: its correction, all levels of the multigrid
+#define BIND_WIND_RHS 5        // float[]: residual of the pressure, right sides of the coarser levels
+#define BIND_WIND_WEIGHTS 6    // uint[]: how open a cell's faces are, all levels
+#define BIND_WIND_VORTICITY 7  // float[]: at north-west corners (1/s)
+#define BIND_WIND_CELLS 7      // vec4[]: velocity at centres, previous and latest state
+#define BIND_WIND_DRAWN_INFLOW 7 // float[]: divergence that the projection leaves (1/s)
+#define BIND_WIND_TARGET 4     // vec2[]: three groups of two stream functions a corner, what the ambient wind is drawn to
+#define BIND_WIND_TOTALS 5     // float[]: mean and mean square of the ambient tile
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
@@ -38,6 +65,8 @@
 #define TEX_RESOLVE_TANGENT 8
 #define TEX_RESOLVE_NORMAL 9
 #define TEX_RESOLVE_DEPTH 10
+#define TEX_WIND_AMBIENT 11    // RGBA32F buffer: cells of the ambient tile, previous and latest state
+#define TEX_WIND_LOCAL 12      // RGBA32F buffer: cells of the local window likewise
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
@@ -45,6 +74,9 @@
 
 #define WIND_GROUP_X 32        // wind passes: cells a workgroup; rows lie together in memory
 #define WIND_GROUP_Y 4
+#define WIND_SOLVE_GROUP 256   // threads that solve the coarsest level, and that add up sums
+#define WIND_SOLVE_SIDE 64     // its greatest side; shared memory holds it
+#define WIND_TILE 16           // forces and solids are binned by tiles of so many cells a side; one workgroup each
 
 // Fragment outputs.
 #define OUT_COLOR 0

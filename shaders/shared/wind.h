@@ -1,39 +1,94 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mean wind with travelling gusts that wind_at() answers from. The fluid will take its place; the interface stays.
+// Where wind_at() finds its answer: the ambient tile, laid over the plane twice and carried along by the mean wind, and the
+// local window over it. The arithmetic of places and weights is here, for shaders and for the C++ twin; each fetches by itself.
 #ifndef SWARD_SHARED_WIND_H
 #define SWARD_SHARED_WIND_H
 #include "shared/types.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kGustWaves = 6;
+SHARED_CONST int kWindLayers = 2; // copies of the ambient tile: one alone would show itself repeating
 
-// Phases hold the time and the anchor's place already (reduced in double precision on the CPU), so that a shader only adds
-// k . xz for points near the anchor. 112 bytes.
+// Offsets hold anchor and time already (reduced in double precision on the CPU), so that shaders only add places near
+// the anchor. 112 bytes.
 struct WindField {
-    vec4 mean;     // mean velocity x, z (m/s); gust 0..1; response of the grass, 1 / (m/s)
-    vec4 waves[6]; // wave vector x, z (rad/m); phase (rad); amplitude, the sum of all is 1
+    vec4 mean;      // mean velocity x, z (m/s); unused; response of the grass, 1 / (m/s)
+    vec4 ambient;   // cells a side of the tile (0: no gusts); share of the latest state in time; unused
+    vec4 layers[2]; // tile coordinates of the anchor (cells); cosine and sine of the layer's turn over its cell (1/m)
+    vec4 weights;   // of the layers; their cells (m)
+    vec4 window;    // north-west corner from the anchor x, z (m); 1 / cell (1/m); cells a side (0: no window)
+    vec4 blend;     // storage place of that corner's cell x, z; share of the latest state; width of the rim's blend (cells)
 };
 #ifdef __cplusplus
 static_assert(sizeof(WindField) == 112);
 #endif
 
-// Wind velocity (m/s; x east, z south) at anchor-relative xz. Speed stays within mean * [1 - 0.8 gust, 1 + 1.6 gust].
-SHARED_FN vec2 wind_field_at(WindField field, vec2 xz) {
-    float front = 0.0f;
-    float sway = 0.0f;
-    for (int i = 0; i < kGustWaves; ++i) {
-        float phase = dot(vec2(field.waves[i].x, field.waves[i].y), xz) + field.waves[i].z;
-        front += field.waves[i].w * sin(phase);
-        sway += field.waves[i].w * cos(phase * 0.5f);
-    }
-    // Gusts rise fast and are rarer than lulls: square the positive side of the sum.
-    float push = front > 0.0f ? front * (0.8f + 0.8f * front) : front * 0.8f;
-    float speed = 1.0f + field.mean.z * push;
-    float turn = 0.35f * field.mean.z * sway;
-    vec2 along = vec2(field.mean.x, field.mean.y);
-    vec2 across = vec2(-field.mean.y, field.mean.x);
-    return speed * (along * cos(turn) + across * sin(turn));
+// Four elements around a place on a grid of cell centres, and the place among them.
+struct WindTap {
+    ivec4 at;    // elements north-west, north-east, south-west, south-east
+    vec2 within; // 0..1 to the east, to the south
+};
+
+// Tile coordinates (cells) of an anchor-relative place in a layer.
+SHARED_FN vec2 wind_layer_place(WindField field, int layer, vec2 xz) {
+    vec4 turn = field.layers[layer];
+    return vec2(turn.x + turn.z * xz.x + turn.w * xz.y, turn.y - turn.w * xz.x + turn.z * xz.y);
+}
+
+// A tile's velocity turned into the world, and its share of the wind.
+SHARED_FN vec2 wind_layer_velocity(WindField field, int layer, vec2 velocity) {
+    vec4 turn = field.layers[layer];
+    float cell = layer == 0 ? field.weights.z : field.weights.w;
+    float scale = cell * (layer == 0 ? field.weights.x : field.weights.y);
+    return scale * vec2(turn.z * velocity.x - turn.w * velocity.y, turn.w * velocity.x + turn.z * velocity.y);
+}
+
+SHARED_FN WindTap wind_tile_tap(float cells, vec2 place) {
+    vec2 wrapped = place - vec2(0.5f, 0.5f);
+    wrapped = wrapped - cells * floor(wrapped / cells);
+    vec2 low = floor(wrapped);
+    int n = int(cells);
+    int x = int(low.x) < n ? int(low.x) : 0; // the wrap may round up to `cells` itself
+    int y = int(low.y) < n ? int(low.y) : 0;
+    int east = x + 1 < n ? x + 1 : 0;
+    int south = y + 1 < n ? y + 1 : 0;
+    WindTap tap;
+    tap.at = ivec4(y * n + x, y * n + east, south * n + x, south * n + east);
+    tap.within = wrapped - low;
+    return tap;
+}
+
+// `place`: cells from the window's north-west corner, inside it.
+SHARED_FN WindTap wind_window_tap(WindField field, vec2 place) {
+    vec2 from_centre = place - vec2(0.5f, 0.5f);
+    vec2 low = floor(from_centre);
+    int n = int(field.window.w);
+    int x = clamp(int(low.x), 0, n - 2) + int(field.blend.x);
+    int y = clamp(int(low.y), 0, n - 2) + int(field.blend.y);
+    int west = x < n ? x : x - n;
+    int east = x + 1 < n ? x + 1 : x + 1 - n;
+    int north = (y < n ? y : y - n) * n;
+    int south = (y + 1 < n ? y + 1 : y + 1 - n) * n;
+    WindTap tap;
+    tap.at = ivec4(north + west, north + east, south + west, south + east);
+    tap.within = clamp(from_centre - low, vec2(0.0f, 0.0f), vec2(1.0f, 1.0f));
+    return tap;
+}
+
+// Share of the local window at a place (cells from its corner): 1 inside, 0 at the rim and outside.
+SHARED_FN float wind_window_share(WindField field, vec2 place) {
+    float n = field.window.w;
+    float to_rim = min(min(place.x, place.y), min(n - place.x, n - place.y)) - 4.0f;
+    float t = clamp(to_rim / max(field.blend.w, 1.0f), 0.0f, 1.0f);
+    return n > 0.0f ? t * t * (3.0f - 2.0f * t) : 0.0f;
+}
+
+// Velocity among four fetched elements (previous state xy, latest zw), `latest` the latest one's share.
+SHARED_FN vec2 wind_tap_velocity(WindTap tap, vec4 nw, vec4 ne, vec4 sw, vec4 se, float latest) {
+    vec4 north = nw + (ne - nw) * tap.within.x;
+    vec4 south = sw + (se - sw) * tap.within.x;
+    vec4 both = north + (south - north) * tap.within.y;
+    return vec2(both.x + (both.z - both.x) * latest, both.y + (both.w - both.y) * latest);
 }
 
 SHARED_END

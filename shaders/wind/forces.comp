@@ -11,11 +11,11 @@ uniform int first_tile;
 layout(std430, binding = BIND_WIND_FORCES) readonly buffer Forces {
     WindForce forces[];
 };
-layout(std430, binding = BIND_WIND_TILES) readonly buffer Tiles {
+layout(std430, binding = BIND_WIND_TILES) readonly buffer WindTiles {
     ivec4 tiles[]; // column, row, first item, items
 };
-layout(std430, binding = BIND_WIND_TILE_ITEMS) readonly buffer Items {
-    uint items[];
+layout(std430, binding = BIND_WIND_TILE_ITEMS) readonly buffer TileItems {
+    uint tile_items[];
 };
 
 #ifdef INFLOW
@@ -42,7 +42,7 @@ void main() {
     vec2 east = west_face(cell + ivec2(1, 0)), south = north_face(cell + ivec2(0, 1));
     float sum = 0.0;
     for (int i = tile.z; i < tile.z + tile.w; ++i) {
-        WindForce force = forces[items[i]];
+        WindForce force = forces[tile_items[i]];
         sum += wind_force_at(force, east).outflow.x - wind_force_at(force, west).outflow.x;
         sum += wind_force_at(force, south).outflow.y - wind_force_at(force, north).outflow.y;
     }
@@ -50,7 +50,7 @@ void main() {
 #else
     vec2 wanted = vec2(0.0), rate = vec2(0.0);
     for (int i = tile.z; i < tile.z + tile.w; ++i) {
-        WindForce force = forces[items[i]];
+        WindForce force = forces[tile_items[i]];
         WindPush at_west = wind_force_at(force, west), at_north = wind_force_at(force, north);
         wanted += vec2(at_west.target.x * at_west.rate, at_north.target.y * at_north.rate);
         rate += vec2(at_west.rate, at_north.rate);

@@ -8,16 +8,35 @@ layout(std140, binding = BIND_WIND_GRID) uniform WindGridBlock {
     WindGrid grid;
 };
 
+// Where a logical column (row) is stored; within [0, cells).
+int stored_column(int x) {
+    x += grid.plan.y;
+    return x >= grid.plan.x ? x - grid.plan.x : x;
+}
+int stored_row(int y) {
+    y += grid.plan.z;
+    return y >= grid.plan.x ? y - grid.plan.x : y;
+}
+
 // Index of a logical cell within [0, cells) on each axis.
 int cell_index(ivec2 logical) {
-    int n = grid.layout.x;
-    ivec2 place = logical + grid.layout.yz;
-    place -= ivec2(greaterThanEqual(place, ivec2(n))) * n;
-    return place.y * n + place.x;
+    return stored_row(logical.y) * grid.plan.x + stored_column(logical.x);
+}
+
+// The neighbour's column or row: around the tile, or held at the window's edge.
+int near_cell(int x) {
+#ifdef PERIODIC
+    return x < 0 ? x + grid.plan.x : x >= grid.plan.x ? x - grid.plan.x : x;
+#else
+    return clamp(x, 0, grid.plan.x - 1);
+#endif
+}
+int near_index(ivec2 logical) {
+    return cell_index(ivec2(near_cell(logical.x), near_cell(logical.y)));
 }
 
 bool in_grid(ivec2 logical) {
-    return all(greaterThanEqual(logical, ivec2(0))) && all(lessThan(logical, ivec2(grid.layout.x)));
+    return all(greaterThanEqual(logical, ivec2(0))) && all(lessThan(logical, ivec2(grid.plan.x)));
 }
 
 vec2 cell_centre(ivec2 logical) {
@@ -28,4 +47,9 @@ vec2 west_face(ivec2 logical) { // where u(logical) lies
 }
 vec2 north_face(ivec2 logical) { // where v(logical) lies
     return (vec2(logical) + vec2(0.5, 0.0)) * grid.size.x;
+}
+
+// What no cell may exceed; what is no number is calm.
+float sane(float speed) {
+    return abs(speed) <= kWindCeiling_ms ? speed : speed > 0.0 ? kWindCeiling_ms : speed < 0.0 ? -kWindCeiling_ms : 0.0;
 }

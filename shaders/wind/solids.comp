@@ -17,11 +17,11 @@ layout(std430, binding = BIND_WIND_SOLID_VELOCITY) writeonly buffer SolidVelocit
 layout(std430, binding = BIND_WIND_SOLIDS) readonly buffer Solids {
     WindSolid solids[];
 };
-layout(std430, binding = BIND_WIND_TILES) readonly buffer Tiles {
+layout(std430, binding = BIND_WIND_TILES) readonly buffer WindTiles {
     ivec4 tiles[]; // column, row, first item, items
 };
-layout(std430, binding = BIND_WIND_TILE_ITEMS) readonly buffer Items {
-    uint items[];
+layout(std430, binding = BIND_WIND_TILE_ITEMS) readonly buffer TileItems {
+    uint tile_items[];
 };
 layout(std430, binding = BIND_WIND_FOOTPRINTS) readonly buffer Footprints {
     uint words[];
@@ -42,7 +42,7 @@ void main() {
         return;
     vec2 xz = cell_centre(cell);
     for (int i = tile.z + tile.w - 1; i >= tile.z; --i) {
-        WindSolid one = solids[items[i]];
+        WindSolid one = solids[tile_items[i]];
         if (!covers(one, xz))
             continue;
         int index = cell_index(cell);

@@ -113,6 +113,11 @@ void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings)
     last_settings = settings;
     timers.begin_frame();
     targets.require(settings.width, settings.height, settings.samples, settings.aov);
+    {
+        const gl::PassScope pass(timers, "wind");
+        wind.advance(view.time_s, {view.pose.position.x, view.pose.position.z}, settings.most_wind_steps);
+        wind.bind();
+    }
     const int pictures = settings.tiers == Tiers::kReference ? settings.reference_grid * settings.reference_grid : 1;
     for (int picture = 0; picture < pictures; ++picture) {
         draw_picture(view, settings, picture, pictures);

@@ -13,6 +13,7 @@
 #include "shells/far_appearance.h"
 #include "shells/far_pass.h"
 #include "terrain/terrain_pass.h"
+#include "wind/sources.h"
 #include "wind/wind.h"
 
 namespace sward::render {
@@ -45,6 +46,9 @@ struct Renderer::Impl {
     void draw_blades(const FrameSettings& settings, const Shot& shot);
     [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
     [[nodiscard]] DrawPasses& passes(bool aov);
+
+    /// The wind's inputs, which Impl made.
+    [[nodiscard]] wind::Sources& sources() const { return static_cast<wind::Sources&>(*wind.inputs()); }
 
     World world;
     terrain::Surface surface;

@@ -42,7 +42,8 @@ double mean_width(const grass::GrassSet& set) {
 
 Renderer::Impl::Impl(World inputs)
     : world(std::move(inputs)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
-      wind(world.scene.wind, wind_response(world.grass)), far_textures(world.grass), far_appearance(world.grass),
+      wind(world.scene.wind, wind_response(world.grass),
+           std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), far_textures(world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
       mean_blade_width_m(mean_width(world.grass)) {
     // The GPU holds the images now; tens of megabytes are freed here.
@@ -127,6 +128,10 @@ scene::Pose Renderer::above_datum(const scene::Pose& pose) const {
 
 glm::dvec2 Renderer::wind_at(double x, double z, double time_s) const { return impl_->wind.at(x, z, time_s); }
 
+void Renderer::set_wind_arrows(std::vector<scene::WindArrow> arrows) { impl_->sources().set_arrows(std::move(arrows)); }
+
+void Renderer::wait_for_wind() { impl_->wind.wait(); }
+
 std::vector<std::string> Renderer::reload_shaders() {
     std::vector<std::string> failures;
     for (auto* passes : {impl_->plain_passes.get(), impl_->aov_passes.get()}) {
@@ -134,7 +139,7 @@ std::vector<std::string> Renderer::reload_shaders() {
             passes->reload(failures);
         }
     }
-    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.block_samples.reload(); }}) {
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
         try {
             reload(*impl_);
         } catch (const base::Error& error) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +13,7 @@
 #include "grass/grass_set.h"
 #include "scene/heightfield.h"
 #include "scene/image.h"
+#include "scene/mesh.h"
 #include "scene/scene.h"
 
 namespace sward::render {
@@ -33,6 +36,7 @@ struct FrameSettings {
     double reference_distance_m = 60;  ///< likewise for the reference
     int reference_grid = 4;     ///< n x n jittered frames are averaged; cost grows with n^2
     float exposure = 1.0f;
+    int most_wind_steps = 0;    ///< of the local window in a frame, 0: any number; it then lags behind the time instead of the frame
     bool aov = false;           ///< also fill the AOV targets; costs about a third more fill
 };
 
@@ -65,6 +69,7 @@ struct World {
     scene::Heightfield elevation;
     scene::DensityMask mask; ///< width 0: the slope rule
     grass::GrassSet grass;
+    std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles name, under its names
 };
 
 /// The library's face. Needs a current GL 4.5 core context at construction, in every call and at destruction; owns no
@@ -93,8 +98,15 @@ public:
     [[nodiscard]] double ground_height(double x, double z) const;
     /// The pose with its height above the datum (agl resolved).
     [[nodiscard]] scene::Pose above_datum(const scene::Pose& pose) const;
-    /// Wind (m/s, east and south) at a point and time: the answer that every shader gets.
+    /// Wind (m/s, east and south) at a point and time: the answer that every shader gets, as far as it has come back from the
+    /// GPU: a frame or two late. Never waits.
     [[nodiscard]] glm::dvec2 wind_at(double x, double z, double time_s) const;
+    /// Waits until wind_at() knows the frame just drawn.
+    void wait_for_wind();
+
+    /// Puts these arrows in the place of the scene's, from the next step of the wind on: for an editor. Every parent is
+    /// among them, and chains end.
+    void set_wind_arrows(std::vector<scene::WindArrow> arrows);
 
     /// Recompiles programs whose source changed; returns messages of those that failed (the old program stays).
     [[nodiscard]] std::vector<std::string> reload_shaders();

@@ -39,7 +39,10 @@ public:
     /// Arrows of the editor, in the place of the scene's, from the next step on. Every parent is there; chains end.
     void set_arrows(std::vector<scene::WindArrow> arrows) { forces_.set_arrows(std::move(arrows)); }
 
-    [[nodiscard]] bool active() const override { return !forces_.empty() || !solids_.empty(); }
+    /// A window is simulated even while nothing stands or pushes.
+    void keep_active() { always_active_ = true; }
+
+    [[nodiscard]] bool active() const override { return always_active_ || !forces_.empty() || !solids_.empty(); }
     bool fill_solids(const FluidGrid& grid, bool moved) override;
     void apply_forces(const FluidGrid& grid) override;
     [[nodiscard]] double loudest_ms() const override;
@@ -55,6 +58,7 @@ private:
     BinnedList force_list_, inflow_list_, solid_list_;
     gl::Buffer footprints_;
     std::vector<shared::WindSolid> drawn_; ///< what the solid mask holds
+    bool always_active_ = false;
     bool has_inflow_ = false;              ///< whether the grid's inflow is anything but 0
     double loudest_force_ms_ = 0, loudest_solid_ms_ = 0;
 };

@@ -3,46 +3,222 @@
 
 #include <cmath>
 
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
 #include "base/hash.h"
+#include "base/log.h"
+#include "shared/bindings.h"
 
 namespace sward::wind {
 
 namespace {
-constexpr double kTwoPi = 6.283185307179586;
-// Wavelengths of the gust fronts (m): the first are the large fronts one sees run over a field, the last its shimmer.
-constexpr double kWavelengths_m[shared::kGustWaves] = {140, 83, 47, 29, 17, 9};
-constexpr double kAmplitudes[shared::kGustWaves] = {0.27, 0.22, 0.18, 0.14, 0.11, 0.08};
-} // namespace
 
-Wind::Wind(const scene::WindSpec& spec, double response) : gust_(spec.gust), response_(response) {
-    const double from = spec.direction_deg * kTwoPi / 360; // where it comes from, clockwise from north (-z)
-    mean_ = glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_ms;
-    const double heading = std::atan2(mean_.y, mean_.x);
-    for (int i = 0; i < shared::kGustWaves; ++i) {
-        const auto random = [&](std::uint64_t n) { return base::hash_unit(static_cast<std::uint64_t>(spec.seed), 0x9057, static_cast<std::uint64_t>(i) * 2 + n); };
-        const double turn = (random(0) - 0.5) * 1.5; // fronts run within 43 degrees of the wind
-        const double k = kTwoPi / kWavelengths_m[i];
-        waves_[i].k = glm::dvec2(std::cos(heading + turn), std::sin(heading + turn)) * k;
-        waves_[i].omega = k * std::max(spec.speed_ms, 0.5) * (0.8 + 0.06 * i); // shorter gusts decay, long ones lag the mean
-        waves_[i].phase = random(1) * 2 * kTwoPi;
-        waves_[i].amplitude = kAmplitudes[i];
-    }
+constexpr double kTwoPi = 6.283185307179586;
+// The two layers: turned by the golden angle against each other and scaled by the golden section, so that their sum does not
+// repeat. The squares of the weights add to 1: independent gusts of the same strength in the sum.
+constexpr double kLayerTurn[shared::kWindLayers] = {0.35, 0.35 + 2.39996322972865};
+constexpr double kLayerScale[shared::kWindLayers] = {1, 0.61803398874989};
+constexpr double kLayerWeight[shared::kWindLayers] = {0.8, 0.6};
+constexpr double kBlendShare = 0.06; // of the window's side: the width over which it passes into the ambient wind
+
+/// Steps of `step_s` that cover a time.
+std::int64_t steps_for(double time_s, double step_s) { return static_cast<std::int64_t>(std::ceil(time_s / step_s - 1e-9)); }
+
+glm::dvec2 cpu_tap(const shared::WindTap& tap, std::span<const glm::vec4> cells, float latest) {
+    const auto fetch = [&](int i) { return cells[static_cast<std::size_t>(i)]; };
+    return shared::wind_tap_velocity(tap, fetch(tap.at.x), fetch(tap.at.y), fetch(tap.at.z), fetch(tap.at.w), latest);
 }
 
-shared::WindField Wind::field(glm::dvec2 anchor, double time_s) const {
+} // namespace
+
+Wind::Wind(const scene::WindSpec& spec, double response, std::unique_ptr<FluidInputs> inputs)
+    : spec_(spec), response_(response), inputs_(std::move(inputs)), ambient_(spec), ambient_back_(ambient_.cells().bytes()) {
+    const double from = spec.direction_deg * kTwoPi / 360; // where it comes from, clockwise from north (-z)
+    // Gusts lengthen the mean velocity to the mean speed: half of that is taken off, so that both are near speed_ms.
+    const double turbulence = AmbientTile::kGustShare * spec.gust;
+    mean_ = glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_ms * (1 - 0.25 * turbulence * turbulence);
+    for (int layer = 0; layer < shared::kWindLayers; ++layer) {
+        const auto random = [&](std::uint64_t n) { return base::hash_unit(static_cast<std::uint64_t>(spec.seed), 0x1a7e, static_cast<std::uint64_t>(layer) * 2 + n); };
+        shift_[layer] = glm::dvec2(random(0), random(1)) * static_cast<double>(AmbientTile::kCells);
+    }
+    glCreateTextures(GL_TEXTURE_BUFFER, 2, textures_);
+    point_textures();
+}
+
+Wind::~Wind() { glDeleteTextures(2, textures_); }
+
+void Wind::point_textures() {
+    glTextureBuffer(textures_[0], GL_RGBA32F, ambient_.cells().id());
+    glTextureBuffer(textures_[1], GL_RGBA32F, window_ ? window_->fluid().cells().id() : ambient_.cells().id());
+}
+
+void Wind::bind() const {
+    glBindTextureUnit(TEX_WIND_AMBIENT, textures_[0]);
+    glBindTextureUnit(TEX_WIND_LOCAL, textures_[1]);
+}
+
+shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag& ambient, const StateTag& window) const {
     shared::WindField field{};
-    field.mean = {mean_.x, mean_.y, gust_, response_};
-    for (int i = 0; i < shared::kGustWaves; ++i) {
-        const Wave& wave = waves_[i];
-        // The direction's sway uses half the phase: reduce modulo 4 pi, in double, before it becomes a float.
-        const double phase = std::fmod(glm::dot(wave.k, anchor) - wave.omega * time_s + wave.phase, 2 * kTwoPi);
-        field.waves[i] = {wave.k.x, wave.k.y, phase, wave.amplitude};
+    field.mean = {mean_.x, mean_.y, 0, response_};
+    if (ambient_.strength_ms() > 0) {
+        const double n = ambient.cells;
+        field.ambient = {n, ambient.share(time_s), 0, 0};
+        const glm::dvec2 carried = anchor - mean_ * time_s;
+        for (int layer = 0; layer < shared::kWindLayers; ++layer) {
+            const double cell = ambient.cell_m * kLayerScale[layer], c = std::cos(kLayerTurn[layer]) / cell, s = std::sin(kLayerTurn[layer]) / cell;
+            const glm::dvec2 place = glm::dvec2(c * carried.x + s * carried.y, -s * carried.x + c * carried.y) + shift_[layer];
+            const glm::dvec2 wrapped = place - n * glm::floor(place / n);
+            field.layers[layer] = {wrapped.x, wrapped.y, c, s};
+            field.weights[layer] = static_cast<float>(kLayerWeight[layer]);
+            field.weights[layer + 2] = static_cast<float>(cell);
+        }
+    }
+    if (window.cells > 0) {
+        const glm::dvec2 corner = glm::dvec2(window.first_cell) * window.cell_m - anchor;
+        const glm::ivec2 n(window.cells), offset = ((window.first_cell % n) + n) % n;
+        field.window = {corner.x, corner.y, 1 / window.cell_m, window.cells};
+        field.blend = {offset.x, offset.y, window.share(time_s), kBlendShare * window.cells};
     }
     return field;
 }
 
+shared::WindField Wind::field(glm::dvec2 anchor, double time_s) const {
+    return compose(anchor, time_s, ambient_.tag(), window_ ? window_->tag() : StateTag{});
+}
+
 glm::dvec2 Wind::at(double x, double z, double time_s) const {
-    return shared::wind_field_at(field({x, z}, time_s), glm::vec2(0));
+    const bool ambient_landed = ambient_back_.landed(), window_landed = window_back_ && window_back_->landed();
+    StateTag first;
+    first.step_s = AmbientTile::kStep_s;
+    first.cells = AmbientTile::kCells;
+    first.cell_m = AmbientTile::kCell_m;
+    const shared::WindField field = compose({x, z}, time_s, ambient_landed ? ambient_back_.tag() : first, window_landed ? window_back_->tag() : StateTag{});
+    glm::dvec2 sum(field.mean.x, field.mean.y);
+    if (field.ambient.x > 0) {
+        const std::span<const glm::vec4> cells = ambient_landed ? ambient_back_.cells() : std::span<const glm::vec4>(ambient_.initial());
+        for (int layer = 0; layer < shared::kWindLayers; ++layer) {
+            const shared::WindTap tap = shared::wind_tile_tap(field.ambient.x, shared::wind_layer_place(field, layer, glm::vec2(0)));
+            sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.ambient.y)));
+        }
+    }
+    const glm::vec2 place = -glm::vec2(field.window.x, field.window.y) * field.window.z;
+    const float share = shared::wind_window_share(field, place);
+    if (share > 0) {
+        sum += (cpu_tap(shared::wind_window_tap(field, place), window_back_->cells(), field.blend.z) - sum) * static_cast<double>(share);
+    }
+    return sum;
+}
+
+void Wind::restart(double time_s) {
+    const double start = time_s > kLeap_s ? time_s - kRunUp_s : 0;
+    if (start > 0) {
+        base::log_info(fmt::format("wind: a leap to {:.0f} s begins {:.0f} s before it", time_s, kRunUp_s));
+    }
+    ambient_.begin(static_cast<std::int64_t>(start / AmbientTile::kStep_s));
+    window_.reset();
+    ambient_back_.clear();
+    window_back_.reset();
+    eye_.reset();
+    time_s_ = start;
+    point_textures();
+}
+
+void Wind::step_ambient(double time_s) {
+    if (ambient_.strength_ms() > 0) {
+        while (ambient_.tag().latest < steps_for(time_s, AmbientTile::kStep_s)) {
+            ambient_.step();
+        }
+        glTextureBuffer(textures_[0], GL_RGBA32F, ambient_.cells().id());
+    }
+}
+
+void Wind::advance_window(double time_s, glm::dvec2 eye, int most_steps) {
+    if (!inputs_ || !inputs_->active()) {
+        window_.reset();
+        window_back_.reset();
+        return;
+    }
+    const auto ambient_at = [&](glm::dvec2 corner, double when) { return compose(corner, when, ambient_.tag(), StateTag{}); };
+    if (!window_) {
+        window_ = std::make_unique<Window>(spec_, mean_);
+        const std::int64_t first = steps_for(time_s_, spec_.step_s);
+        step_ambient(static_cast<double>(first) * spec_.step_s);
+        point_textures();
+        bind();
+        window_->begin(eye_.value_or(eye), first, ambient_at(window_->corner_for(eye_.value_or(eye)), static_cast<double>(first) * spec_.step_s));
+    }
+    const glm::dvec2 from = eye_.value_or(eye);
+    const double span = time_s - time_s_;
+    for (int steps = 0; window_->tag().latest < steps_for(time_s, spec_.step_s) && (most_steps == 0 || steps < most_steps); ++steps) {
+        const double when = window_->next_time_s();
+        step_ambient(when);
+        bind();
+        const double share = span > 0 ? glm::clamp((when - time_s_) / span, 0.0, 1.0) : 1.0;
+        const glm::dvec2 there = from + (eye - from) * share;
+        window_->follow(there, ambient_at(window_->corner_for(there), when - spec_.step_s));
+        window_->step(*inputs_, ambient_at(window_->corner(), when));
+    }
+}
+
+void Wind::advance(double time_s, glm::dvec2 eye, int most_steps) {
+    if (!std::isfinite(time_s) || !std::isfinite(eye.x) || !std::isfinite(eye.y)) {
+        throw base::Error(base::ExitCode::kBadInput, fmt::format("wind: found time {} s at {}, {} m, expected finite numbers", time_s, eye.x, eye.y));
+    }
+    time_s = std::max(time_s, 0.0);
+    const double covered = window_ ? std::max(time_s, static_cast<double>(window_->tag().latest) * spec_.step_s) : time_s;
+    const bool back = time_s < time_s_ && (steps_for(covered, AmbientTile::kStep_s) < ambient_.tag().latest ||
+                                           (window_ && steps_for(time_s, spec_.step_s) < window_->tag().latest));
+    if (back || time_s - time_s_ > kLeap_s) {
+        restart(time_s);
+    }
+    const std::int64_t ambient_before = ambient_.tag().latest, window_before = window_ ? window_->tag().latest : -1;
+    advance_window(time_s, eye, most_steps);
+    step_ambient(time_s);
+    if (ambient_.tag().latest != ambient_before) {
+        ambient_back_.start(ambient_.cells(), ambient_.tag());
+    }
+    if (window_ && window_->tag().latest != window_before) {
+        if (!window_back_) {
+            window_back_ = std::make_unique<ReadBack>(window_->fluid().cells().bytes());
+        }
+        window_back_->start(window_->fluid().cells(), window_->tag());
+    }
+    point_textures();
+    ambient_back_.poll();
+    if (window_back_) {
+        window_back_->poll();
+    }
+    time_s_ = time_s;
+    eye_ = eye;
+}
+
+void Wind::wait() {
+    // A copy may not have found a free slot: what waits is taken first, then the present states follow.
+    ambient_back_.poll(true);
+    if (!ambient_back_.landed() || ambient_back_.tag().latest != ambient_.tag().latest) {
+        ambient_back_.start(ambient_.cells(), ambient_.tag());
+        ambient_back_.poll(true);
+    }
+    if (window_back_) {
+        window_back_->poll(true);
+        if (!window_back_->landed() || window_back_->tag().latest != window_->tag().latest) {
+            window_back_->start(window_->fluid().cells(), window_->tag());
+            window_back_->poll(true);
+        }
+    }
+}
+
+double Wind::lag_s(double time_s) const {
+    return window_ ? std::max(0.0, time_s - static_cast<double>(window_->tag().latest) * spec_.step_s) : 0;
+}
+
+void Wind::reload() {
+    ambient_.reload();
+    if (window_) {
+        window_->reload();
+    }
 }
 
 } // namespace sward::wind

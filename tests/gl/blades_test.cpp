@@ -258,7 +258,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         const float shell =
             shared::pose_share(blade.root.z, distance, vec2(world_.frame.pose_band));
         vec3 v1(blade.v1), v2(blade.v2);
-        const vec2 wind = shared::wind_field_at(world_.frame.wind, vec2(at.x, at.z));
+        const vec2 wind = world_.wind_at(vec2(at.x, at.z));
         shared::pose_blade(
             v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
             wind);
@@ -301,6 +301,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
     }
     EXPECT_GT(checked, 50);
     EXPECT_GT(folded, 10);
+    EXPECT_GT(fluttering, 10);
     EXPECT_GT(posed, 10); // both ends of the band were seen
     EXPECT_LT(posed, checked - 10);
 }

@@ -151,6 +151,9 @@ struct SmallWorld {
         clipmap.describe(frame, flat);
         frame.looks[0] = set.species.front().look;
         frame.light = daylight(glm::normalize(glm::vec3(0.4f, 0.7f, 0.3f)));
+        wind.advance(kTime_s, {eye_at.x, eye_at.z});
+        wind.wait();
+        wind.bind();
         frame.wind = wind.field(flat, kTime_s);
         upload();
     }
@@ -171,6 +174,12 @@ struct SmallWorld {
     /// World metres of an anchor-relative place.
     [[nodiscard]] glm::dvec2 world(glm::vec2 place) const {
         return glm::dvec2(place) + glm::dvec2(anchor.x, anchor.z);
+    }
+
+    /// The wind's C++ twin at an anchor-relative place.
+    [[nodiscard]] glm::vec2 wind_at(glm::vec2 place) const {
+        const glm::dvec2 at = world(place);
+        return glm::vec2(wind.at(at.x, at.y, kTime_s));
     }
 
     static constexpr double kTime_s = 12.5;

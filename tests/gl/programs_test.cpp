@@ -36,6 +36,23 @@ std::vector<Variant> variants() {
         all.push_back({stages, {}});
         all.push_back({stages, {"AOV"}});
     }
+    // What a grid is, open or periodic, decides about the passes that run over both.
+    for (const char* pass : {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots", "poisson_relax",
+                             "poisson_restrict", "poisson_solve", "poisson_update", "poisson_weights", "project", "publish", "vorticity"}) {
+        all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
+        all.push_back({{std::string("wind/") + pass + ".comp"}, {"PERIODIC"}});
+    }
+    all.push_back({{"wind/advect.comp"}, {"CONFINEMENT"}});
+    all.push_back({{"wind/advect.comp"}, {"PERIODIC", "CONFINEMENT"}});
+    all.push_back({{"wind/poisson_relax.comp"}, {"CORRECT"}});
+    all.push_back({{"wind/poisson_relax.comp"}, {"PERIODIC", "CORRECT"}});
+    for (const char* pass : {"enter", "poisson_scalars", "solids", "forces", "published_advect", "published_confine",
+                             "published_divergence", "published_jacobi", "published_project"}) {
+        all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
+    }
+    all.push_back({{"wind/forces.comp"}, {"INFLOW"}});
+    all.push_back({{"wind/ambient_totals.comp"}, {"PERIODIC"}});
+    all.push_back({{"wind/ambient_force.comp"}, {"PERIODIC"}});
     all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES"}});
     all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV"}});
     return all;
@@ -90,8 +107,47 @@ TEST_F(Programs, TheVariantsHoldEveryEntryPoint) {
 
 TEST_F(Programs, BlocksAreBoundByTheirNames) {
     const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME},
-                                                         {"SurfaceBlock", BIND_SURFACE}};
+                                                         {"SurfaceBlock", BIND_SURFACE},
+                                                         {"WindGridBlock", BIND_WIND_GRID},
+                                                         {"WindFieldBlock", BIND_WIND_FIELD}};
+    // The wind's passes run before all others and share their binding points among themselves.
     const std::map<std::string, GLint> storage_blocks = {
+        {"WindU", BIND_WIND_U},
+        {"WindV", BIND_WIND_V},
+        {"WindSolid", BIND_WIND_SOLID},
+        {"WindSolidVelocity", BIND_WIND_SOLID_VELOCITY},
+        {"WindUNext", BIND_WIND_U_NEXT},
+        {"WindVNext", BIND_WIND_V_NEXT},
+        {"WindUCarried", BIND_WIND_U_CARRIED},
+        {"WindVCarried", BIND_WIND_V_CARRIED},
+        {"WindVEntering", BIND_WIND_V_ENTERING},
+        {"WindLastPressure", BIND_WIND_LAST_PRESSURE},
+        {"WindPressure", BIND_WIND_PRESSURE},
+        {"WindNextPressure", BIND_WIND_NEXT_PRESSURE},
+        {"WindPhi", BIND_WIND_PHI},
+        {"WindRhs", BIND_WIND_RHS},
+        {"WindWeights", BIND_WIND_WEIGHTS},
+        {"WindVorticity", BIND_WIND_VORTICITY},
+        {"WindCells", BIND_WIND_CELLS},
+        {"WindInflow", BIND_WIND_DRAWN_INFLOW},
+        {"WindDirection", BIND_WIND_DIRECTION},
+        {"WindNextDirection", BIND_WIND_NEXT_DIRECTION},
+        {"WindProduct", BIND_WIND_PRODUCT},
+        {"WindPartials", BIND_WIND_PARTIALS},
+        {"WindScalars", BIND_WIND_SCALARS},
+        {"WindTarget", BIND_WIND_TARGET},
+        {"WindTotals", BIND_WIND_TOTALS},
+        {"U", BIND_WIND_U},
+        {"V", BIND_WIND_V},
+        {"Solid", BIND_WIND_SOLID},
+        {"SolidVelocity", BIND_WIND_SOLID_VELOCITY},
+        {"Solids", BIND_WIND_SOLIDS},
+        {"Forces", BIND_WIND_FORCES},
+        {"WindTiles", BIND_WIND_TILES},
+        {"TileItems", BIND_WIND_TILE_ITEMS},
+        {"Footprints", BIND_WIND_FOOTPRINTS},
+        {"Inflow", BIND_WIND_INFLOW},
+
         {"Blades", BIND_BLADES},          {"Tiles", BIND_BLADE_TILES},
         {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
         {"Commands", BIND_DRAW_COMMANDS}, {"Total", BIND_CULL_TOTAL},
@@ -126,13 +182,15 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
+                                                {"wind_ambient", TEX_WIND_AMBIENT},
+                                                {"wind_local", TEX_WIND_LOCAL},
                                                 {"scene_color", TEX_RESOLVE_COLOR},
                                                 {"scene_data", TEX_RESOLVE_DATA},
                                                 {"scene_tangent", TEX_RESOLVE_TANGENT},
                                                 {"scene_normal", TEX_RESOLVE_NORMAL},
                                                 {"scene_depth", TEX_RESOLVE_DEPTH}};
     const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
-                                      GL_SAMPLER_2D_MULTISAMPLE};
+                                      GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -164,6 +222,17 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         if (variant.stages[0].extension() == ".comp") {
             glm::ivec3 size(0);
             glGetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, &size.x);
+            const std::string& name = program.name();
+            if (name.starts_with("wind/")) { // one thread a cell, a tile's cell, or a share of one level
+                const bool tile = name == "wind/forces.comp" || name == "wind/solids.comp";
+                const bool alone = name == "wind/poisson_solve.comp" || name == "wind/poisson_scalars.comp" ||
+                                   name == "wind/ambient_totals.comp";
+                EXPECT_EQ(size, tile    ? glm::ivec3(WIND_TILE, WIND_TILE, 1)
+                                : alone ? glm::ivec3(WIND_SOLVE_GROUP, 1, 1)
+                                        : glm::ivec3(WIND_GROUP_X, WIND_GROUP_Y, 1))
+                    << name;
+                continue;
+            }
             EXPECT_EQ(size, groups.at(program.name())) << program.name();
             continue;
         }
@@ -196,7 +265,7 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.clip[0]"), offsetof(FrameConstants, clip));
     EXPECT_EQ(offset_of("frame.looks[0].light"), offsetof(FrameConstants, looks[0].light));
     EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
-    EXPECT_EQ(offset_of("frame.wind.waves[0]"), offsetof(FrameConstants, wind.waves));
+    EXPECT_EQ(offset_of("frame.wind.layers[0]"), offsetof(FrameConstants, wind.layers));
     EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));
     const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
     EXPECT_EQ(static_cast<std::size_t>(

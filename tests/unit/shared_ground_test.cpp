@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ground and wind as pure functions: interpolation, relief, gusts.
+// Ground as pure functions: interpolation, relief.
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "shared/surface.h"
-#include "shared/wind.h"
 #include "terrain/surface.h"
-#include "wind/wind.h"
 
 namespace sward {
 namespace {
@@ -86,67 +84,6 @@ TEST(SlopeDensity, ThinsOutWithSlope) {
     for (float slope = 0.0f; slope < 2.0f; slope += 0.1f) {
         EXPECT_GE(at(slope), at(slope + 0.1f));
     }
-}
-
-scene::WindSpec gale(double speed, double gust) {
-    scene::WindSpec spec;
-    spec.speed_ms = speed;
-    spec.gust = gust;
-    return spec;
-}
-
-TEST(WindField, SpeedStaysWithinItsBounds) {
-    for (const double gust : {0.0, 0.4, 1.0}) {
-        const wind::Wind wind(gale(6, gust), 0.1);
-        const shared::WindField field = wind.field({1000, -2000}, 33);
-        float least = 1e9f, most = 0;
-        for (float x = -400.0f; x < 400.0f; x += 3.1f) {
-            for (float z = -400.0f; z < 400.0f; z += 37.0f) {
-                const float speed = glm::length(shared::wind_field_at(field, vec2(x, z)));
-                least = std::min(least, speed);
-                most = std::max(most, speed);
-            }
-        }
-        EXPECT_GE(least, 6 * (1 - 0.8 * gust) - 1e-4);
-        EXPECT_LE(most, 6 * (1 + 1.6 * gust) + 1e-4);
-        EXPECT_EQ(most - least > 0.5f, gust > 0) << "gusts move the speed, and only they";
-    }
-}
-
-TEST(WindField, SameAnswerFromEveryAnchor) {
-    const wind::Wind wind(gale(5, 0.7), 0.1);
-    for (const double time : {0.0, 17.3, 3600.0}) {
-        for (const glm::dvec2& place : {glm::dvec2(3, -8), glm::dvec2(-15000.25, 9876.5)}) {
-            const glm::dvec2 truth = wind.at(place.x, place.y, time);
-            for (const glm::dvec2& anchor :
-                 {glm::dvec2(0), glm::dvec2(64, -128), glm::dvec2(-500, 700)}) {
-                const glm::dvec2 base = glm::floor(place / 64.0) * 64.0 + anchor;
-                const glm::dvec2 here(
-                    shared::wind_field_at(wind.field(base, time), vec2(place - base)));
-                EXPECT_LT(glm::length(here - truth), 1e-4 * glm::length(truth))
-                    << time << " " << anchor.x;
-            }
-        }
-    }
-}
-
-TEST(WindField, BlowsFromItsDirectionAndTravels) {
-    scene::WindSpec spec = gale(5, 0);
-    spec.direction_deg = 270; // from the west: towards +x
-    const glm::dvec2 west = wind::Wind(spec, 0.1).at(10, 20, 5);
-    EXPECT_NEAR(west.x, 5, 1e-4);
-    EXPECT_NEAR(west.y, 0, 1e-4);
-    spec.direction_deg = 0; // from the north: towards +z
-    EXPECT_NEAR(wind::Wind(spec, 0.1).at(0, 0, 0).y, 5, 1e-4);
-    const wind::Wind gusty(gale(5, 1), 0.1);
-    EXPECT_GT(glm::length(gusty.at(0, 0, 0) - gusty.at(0, 0, 4)), 0.01);
-}
-
-TEST(WindField, CalmIsZeroNotNaN) {
-    const wind::Wind wind(gale(0, 1), 0.1);
-    const glm::dvec2 here = wind.at(12, 34, 56);
-    EXPECT_EQ(here.x, 0);
-    EXPECT_EQ(here.y, 0);
 }
 
 TEST(Surface, PassesThroughPostsAndHoldsItsRim) {

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "wind/fluid.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "shared/bindings.h"
+
+namespace sward::wind {
+
+namespace {
+
+constexpr double kRimCells = 16;       // layer at the open rim that is drawn to the ambient wind
+constexpr double kRimRate_per_s = 2;   // at its outer edge
+constexpr double kStableDiffusion = 0.2; // viscosity * step / cell^2 that explicit diffusion carries in one step
+
+int wrap(int value, int n) { return ((value % n) + n) % n; }
+
+void storage_barrier() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+constexpr GLbitfield kAll = GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+
+} // namespace
+
+Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
+    if (settings_.periodic) {
+        defines_.emplace_back("PERIODIC");
+    }
+    if (settings_.confinement > 0) {
+        defines_.emplace_back("CONFINEMENT");
+    }
+    lay_out_levels();
+    const std::size_t cells = static_cast<std::size_t>(settings_.cells) * settings_.cells;
+    const auto last = constants_.level_plan[constants_.inner.z - 1];
+    const std::size_t all = static_cast<std::size_t>(last.z) + static_cast<std::size_t>(last.x) * last.x;
+    for (gl::Buffer* buffer : {&u_, &v_, &u_carried_, &v_carried_}) {
+        *buffer = gl::Buffer(cells * sizeof(float));
+        buffer->clear_to_zero();
+    }
+    vorticity_ = gl::Buffer(settings_.confinement > 0 ? cells * sizeof(float) : 4);
+    published_ = gl::Buffer(cells * sizeof(glm::vec4));
+    solid_ = gl::Buffer(cells * sizeof(std::uint32_t));
+    solid_velocity_ = gl::Buffer(cells * sizeof(glm::vec2));
+    inflow_ = gl::Buffer(cells * sizeof(float));
+    phi_ = gl::Buffer(all * sizeof(float));
+    rhs_ = gl::Buffer(all * sizeof(float));
+    weights_ = gl::Buffer(all * sizeof(std::uint32_t));
+    for (gl::Buffer* buffer : {&pressure_, &direction_, &next_direction_, &product_}) {
+        *buffer = gl::Buffer(cells * sizeof(float));
+        buffer->clear_to_zero();
+    }
+    partials_ = gl::Buffer(cells / (WIND_GROUP_X * WIND_GROUP_Y) * 2 * sizeof(glm::vec2) + 4096);
+    scalars_ = gl::Buffer(4 * sizeof(float));
+    for (gl::Buffer* buffer : {&published_, &solid_, &solid_velocity_, &inflow_, &phi_, &rhs_, &weights_}) {
+        buffer->clear_to_zero();
+    }
+    constants_buffer_ = gl::Buffer(sizeof(constants_));
+    rim_buffer_ = gl::Buffer(sizeof(shared::WindField));
+    const shared::WindField none{};
+    rim_buffer_.upload(&none, sizeof(none));
+}
+
+/// Levels halve while their side is even and too long for one workgroup. An open grid leaves a rim so wide that the solved
+/// square halves often enough.
+void Fluid::lay_out_levels() {
+    const int n = settings_.cells;
+    int side = n;
+    if (!settings_.periodic) {
+        const int halvings = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(n / 16, 2)))), 2, 64);
+        side = (n - 2) / halvings * halvings;
+    }
+    const int rim = (n - side) / 2;
+    constants_.plan = {n, 0, 0, 0};
+    const double cell = settings_.cell_m, step = settings_.step_s;
+    constants_.size = glm::vec4(cell, 1 / cell, step, step / cell);
+    double diffusion = settings_.viscosity_m2s * step / (cell * cell);
+    if (diffusion > kStableDiffusion) {
+        base::log_warning(fmt::format("wind.viscosity_m2s: found {}, expected at most {:.4g} for this cell_m and step_s; that is used",
+                                      settings_.viscosity_m2s, kStableDiffusion * cell * cell / step));
+        diffusion = kStableDiffusion;
+    }
+    constants_.rates = glm::vec4(settings_.confinement, diffusion, 1 / (1 + settings_.dissipation_per_s * step), shared::kWindCeiling_ms);
+    const double layer = std::min(kRimCells, side / 8.0);
+    constants_.mean = glm::vec4(glm::vec2(settings_.mean_ms), layer, 1 - std::exp(-kRimRate_per_s * step));
+    int level = 0, first = 0;
+    for (;; ++level) {
+        const int row = level == 0 ? n : side;
+        constants_.level_plan[level] = {side, row, first, 0};
+        first += row * row;
+        if ((level > 0 && side <= WIND_SOLVE_SIDE / 2) || side % 2 != 0 || level + 1 == shared::kMaxWindLevels) {
+            break;
+        }
+        side /= 2;
+    }
+    constants_.inner = {rim, constants_.level_plan[0].x, level + 1, 0};
+    if (level == 0 || side > WIND_SOLVE_SIDE) { // no such size leaves Fluid's callers: cells are 16 to 4096, tiles powers of two
+        throw base::Error(base::ExitCode::kFailure, fmt::format("wind: found a grid of {} cells, expected one that halves", n));
+    }
+}
+
+gl::Program& Fluid::program(const std::string& name) {
+    auto found = programs_.find(name);
+    if (found == programs_.end()) {
+        const bool correct = name == "poisson_correct";
+        std::vector<std::string> defines = defines_;
+        if (correct) {
+            defines.emplace_back("CORRECT");
+        }
+        found = programs_.emplace(name, gl::Program("wind " + name, {"wind/" + (correct ? "poisson_relax" : name) + ".comp"}, defines)).first;
+    }
+    return found->second;
+}
+
+void Fluid::reload() {
+    for (auto& [name, program] : programs_) {
+        program.reload();
+    }
+}
+
+void Fluid::dispatch(const std::string& name, glm::ivec2 cells, int level, int colour) {
+    const gl::Program& pass = program(name);
+    pass.use();
+    if (level >= 0) {
+        glUniform1i(0, level);
+    }
+    if (colour >= 0) {
+        glUniform1i(1, colour);
+    }
+    glDispatchCompute((cells.x + WIND_GROUP_X - 1) / WIND_GROUP_X, (cells.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
+    storage_barrier();
+}
+
+FluidGrid Fluid::grid() const {
+    FluidGrid grid;
+    grid.u = &u_;
+    grid.v = &v_;
+    grid.solid = &solid_;
+    grid.solid_velocity = &solid_velocity_;
+    grid.inflow = &inflow_;
+    grid.cells = settings_.cells;
+    grid.cell_m = settings_.cell_m;
+    grid.first_cell = first_;
+    grid.origin_m = glm::dvec2(first_) * settings_.cell_m;
+    grid.offset = {wrap(first_.x, grid.cells), wrap(first_.y, grid.cells)};
+    grid.time_s = time_s_;
+    grid.step_s = settings_.step_s;
+    return grid;
+}
+
+void Fluid::upload_constants() {
+    const glm::ivec2 offset = grid().offset;
+    constants_.plan.y = offset.x;
+    constants_.plan.z = offset.y;
+    constants_.level_shift[0] = {offset + constants_.inner.x, 0, 0};
+    constants_buffer_.upload(&constants_, sizeof(constants_));
+    constants_buffer_.bind_uniform(BIND_WIND_GRID);
+    rim_buffer_.bind_uniform(BIND_WIND_FIELD);
+}
+
+void Fluid::bind_faces() const {
+    u_.bind_storage(BIND_WIND_U);
+    v_.bind_storage(BIND_WIND_V);
+}
+
+void Fluid::bind_poisson() const {
+    bind_faces();
+    solid_.bind_storage(BIND_WIND_SOLID);
+    solid_velocity_.bind_storage(BIND_WIND_SOLID_VELOCITY);
+    phi_.bind_storage(BIND_WIND_PHI);
+    rhs_.bind_storage(BIND_WIND_RHS);
+    weights_.bind_storage(BIND_WIND_WEIGHTS);
+    inflow_.bind_storage(BIND_WIND_DRAWN_INFLOW);
+}
+
+void Fluid::set_state(std::span<const float> u, std::span<const float> v) {
+    u_.upload(u.data(), std::min(u.size_bytes(), u_.bytes()));
+    v_.upload(v.data(), std::min(v.size_bytes(), v_.bytes()));
+    u_carried_.upload(u.data(), std::min(u.size_bytes(), u_.bytes()));
+    v_carried_.upload(v.data(), std::min(v.size_bytes(), v_.bytes()));
+    pressure_.clear_to_zero();
+    steps_ = 0;
+    upload_constants();
+    publish(true);
+}
+
+void Fluid::move_to(glm::ivec2 first, const shared::WindField& rim) {
+    const glm::ivec2 shift = first - first_;
+    const int n = settings_.cells;
+    glm::ivec2 low = glm::clamp(-shift, glm::ivec2(0), glm::ivec2(n)), high = glm::clamp(n - shift, glm::ivec2(0), glm::ivec2(n));
+    if (!solids_known_) { // never stepped: nothing is worth keeping
+        low = high = glm::ivec2(0);
+        steps_ = 0;
+    }
+    first_ = first;
+    moved_ = true;
+    rim_buffer_.upload(&rim, sizeof(rim));
+    upload_constants();
+    bind_faces();
+    u_carried_.bind_storage(BIND_WIND_U_CARRIED);
+    v_carried_.bind_storage(BIND_WIND_V_ENTERING);
+    pressure_.bind_storage(BIND_WIND_PRESSURE);
+    published_.bind_storage(BIND_WIND_CELLS);
+    program("enter").set("kept", glm::ivec4(low, high));
+    dispatch("enter", glm::ivec2(n));
+}
+
+void Fluid::publish(bool fresh) {
+    bind_faces();
+    published_.bind_storage(BIND_WIND_CELLS);
+    dispatch("publish", glm::ivec2(settings_.cells), fresh ? 1 : 0);
+    glMemoryBarrier(kAll);
+}
+
+void Fluid::build_weights() {
+    bind_poisson();
+    for (int level = 0; level < constants_.inner.z; ++level) {
+        dispatch("poisson_weights", glm::ivec2(constants_.level_plan[level].x), level);
+    }
+}
+
+void Fluid::advect() {
+    u_carried_.bind_storage(BIND_WIND_U);
+    v_carried_.bind_storage(BIND_WIND_V);
+    if (settings_.confinement > 0) {
+        vorticity_.bind_storage(BIND_WIND_VORTICITY);
+        dispatch("vorticity", glm::ivec2(settings_.cells));
+    }
+    u_.bind_storage(BIND_WIND_U_NEXT);
+    v_.bind_storage(BIND_WIND_V_NEXT);
+    pressure_.bind_storage(BIND_WIND_LAST_PRESSURE);
+    weights_.bind_storage(BIND_WIND_WEIGHTS);
+    dispatch("advect", glm::ivec2(settings_.cells));
+}
+
+/// phi from the residual: a V-cycle with one red-black sweep down and one up.
+void Fluid::cycle() {
+    const int coarsest = constants_.inner.z - 1;
+    const auto cells = [&](int level) { return glm::ivec2(constants_.level_plan[level].x); };
+    const auto half = [&](int level) { return glm::ivec2((cells(level).x + 1) / 2, cells(level).y); };
+    for (int level = 0; level < coarsest; ++level) {
+        dispatch("poisson_begin", cells(level), level);
+        dispatch("poisson_restrict", cells(level + 1), level);
+    }
+    dispatch("poisson_solve", glm::ivec2(1), coarsest);
+    for (int level = coarsest - 1; level >= 0; --level) {
+        dispatch("poisson_correct", half(level), level, 0);
+        dispatch("poisson_relax", half(level), level, 1);
+    }
+}
+
+/// Conjugate gradients with the multigrid as preconditioner: alone it converges in free air, but may diverge beside walls thinner
+/// than coarse cells. Begins with the last step's pressure. A fixed number of iterations: nothing waits for a norm.
+void Fluid::solve(int iterations) {
+    const glm::ivec2 inner(constants_.inner.y);
+    const int groups = ((inner.x + WIND_GROUP_X - 1) / WIND_GROUP_X) * ((inner.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y);
+    scalars_.clear_to_zero();
+    scalars_.bind_storage(BIND_WIND_SCALARS);
+    product_.bind_storage(BIND_WIND_PRODUCT);
+    partials_.bind_storage(BIND_WIND_PARTIALS);
+    for (int i = 0; i < iterations; ++i) {
+        phi_.bind_storage(BIND_WIND_PHI);
+        cycle();
+        dispatch("poisson_dots", inner);
+        dispatch("poisson_scalars", glm::ivec2(1), groups, 0);
+        direction_.bind_storage(BIND_WIND_DIRECTION);
+        next_direction_.bind_storage(BIND_WIND_NEXT_DIRECTION);
+        dispatch("poisson_direction", inner);
+        dispatch("poisson_scalars", glm::ivec2(1), groups, 1);
+        pressure_.bind_storage(BIND_WIND_PRESSURE);
+        dispatch("poisson_update", inner);
+        std::swap(direction_, next_direction_);
+    }
+}
+
+void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_ms) {
+    time_s_ = time_s;
+    const double loudest = inputs.loudest_ms();
+    const double limit = std::max(calm_ms, std::isfinite(loudest) ? 1.2 * loudest : calm_ms);
+    constants_.rates.w = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_ms)));
+    rim_buffer_.upload(&rim, sizeof(rim));
+    upload_constants();
+    const bool solids_changed = inputs.fill_solids(grid(), moved_ || !solids_known_);
+    storage_barrier();
+    if (solids_changed && constants_.plan.w == 0) {
+        constants_.plan.w = 1;
+        upload_constants();
+    }
+    if (solids_changed || moved_ || !solids_known_) {
+        build_weights();
+    }
+    moved_ = false;
+    solids_known_ = true;
+    advect();
+    inputs.apply_forces(grid());
+    storage_barrier();
+    bind_poisson();
+    pressure_.bind_storage(BIND_WIND_PRESSURE);
+    dispatch("divergence", glm::ivec2(constants_.inner.y));
+    solve(settings_.cycles * (steps_++ < 2 ? 4 : solids_changed ? 2 : 1));
+    bind_poisson();
+    pressure_.bind_storage(BIND_WIND_PRESSURE);
+    u_carried_.bind_storage(BIND_WIND_U_CARRIED);
+    v_carried_.bind_storage(BIND_WIND_V_CARRIED);
+    dispatch("project", glm::ivec2(settings_.cells));
+    publish(false);
+}
+
+} // namespace sward::wind
