@@ -4,7 +4,9 @@
 #include <cstdio>
 
 #include <fmt/format.h>
+#include <imgui.h>
 
+#include "app/arrow_panel.h"
 #include "app/capture.h"
 #include "app/commands.h"
 #include "app/controls.h"
@@ -21,6 +23,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kLongestStep = 0.25;   // s: the wind must not leap after a stop
+constexpr int kMostWindSteps = 4;       // of the local window in a frame: a slow GPU slows the wind, not the flight
 constexpr int kFramesBetweenStats = 15; // reading counters waits for the GPU
 constexpr int kLargestSide = 16384;
 
@@ -30,7 +33,7 @@ public:
     Flight(const Options& options, const scene::Scene& scene, Window& window,
            render::Renderer& renderer)
         : options_(options), window_(window), renderer_(renderer), panel_(window.handle()),
-          settings_(options.frame), pose_(renderer.above_datum(find_camera(scene, options.camera))),
+          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(renderer.above_datum(find_camera(scene, options.camera))),
           gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
 
     /// Draws until the window is closed, or for options.exit_after frames.
@@ -76,6 +79,7 @@ private:
     void draw(glm::ivec2 size, std::uint32_t index) {
         settings_.width = std::min(size.x, kLargestSide);
         settings_.height = std::min(size.y, kLargestSide);
+        settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
         renderer_.draw({pose_, pose_, time_s_, index}, settings_);
         if (index % kFramesBetweenStats == 0)
             stats_ = renderer_.stats();
@@ -86,11 +90,27 @@ private:
         renderer_.present(0, 0, std::max(0, size.y - settings_.height));
         panel_.draw(
             settings_, running_,
-            {stats_, pose_, ground(), controls_.speed_ms(), frame_ms_, time_s_, gpu_, messages_});
+            {stats_, pose_, ground(), controls_.speed_ms(), frame_ms_, time_s_, gpu_, messages_}, [&] { draw_overlays(); });
         window_.swap();
     }
 
+    void draw_overlays() {
+        const ImVec2 size = ImGui::GetIO().DisplaySize;
+        const Eye eye(pose_, {size.x, size.y});
+        const Field field{[&](double x, double z) { return renderer_.ground_height(x, z); },
+                          [&](double x, double z) { return renderer_.wind_at(x, z, time_s_); }};
+        if (flow_)
+            draw_flow(eye, field, time_s_);
+        if (arrows_.draw(eye, field, time_s_))
+            renderer_.set_wind_arrows(arrows_.arrows());
+    }
+
     void act(const Input& input) {
+        if (input.has(Action::kFlow))
+            flow_ = !flow_;
+        if (input.has(Action::kArrows))
+            arrows_.shown = !arrows_.shown;
+        arrows_.act(input);
         if (input.has(Action::kHelp))
             panel_.help = !panel_.help;
         if (input.has(Action::kPanel))
@@ -133,6 +153,8 @@ private:
     render::Renderer& renderer_;
     Panel panel_;
     FlyControls controls_;
+    ArrowPanel arrows_;
+    bool flow_ = false;
     render::FrameSettings settings_;
     render::FrameStats stats_;
     scene::Pose pose_; ///< above the datum

@@ -8,6 +8,7 @@
 
 #include "scene/heightfield.h"
 #include "scene/image.h"
+#include "scene/mesh.h"
 #include "scene/scene.h"
 
 // What the two builds of sward read and write: io_full.cpp stands on the assets module, io_core.cpp
@@ -24,6 +25,9 @@ namespace sward::app {
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 /// Density mask. The core build reads none: throws Error(kBadInput).
 [[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec);
+
+/// A mesh that a scene names. The core build reads none: throws Error(kBadInput).
+[[nodiscard]] scene::Mesh load_mesh(const std::filesystem::path& path);
 
 /// Extensions that -o may end in, without the dot.
 [[nodiscard]] std::vector<std::string_view> picture_extensions();

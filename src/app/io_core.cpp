@@ -30,6 +30,10 @@ scene::DensityMask load_mask(const scene::TerrainSpec& spec) {
                             "none (the core build reads no images)");
 }
 
+scene::Mesh load_mesh(const std::filesystem::path& path) {
+    throw base::input_error(ExitCode::kBadInput, path, 0, "mesh", "glTF", "none (the core build reads no meshes)");
+}
+
 std::vector<std::string_view> picture_extensions() {
     return {"ppm"};
 }

@@ -20,6 +20,10 @@ scene::DensityMask load_mask(const scene::TerrainSpec& spec) {
     return assets::load_mask(spec.mask, spec.classes);
 }
 
+scene::Mesh load_mesh(const std::filesystem::path& path) {
+    return assets::load_mesh(path);
+}
+
 std::vector<std::string_view> picture_extensions() {
     return {"png", "exr"};
 }

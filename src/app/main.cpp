@@ -27,6 +27,9 @@ void run(int argc, char** argv) {
     case sward::app::Command::kRender:
         sward::app::run_render(options);
         break;
+    case sward::app::Command::kWind:
+        sward::app::run_wind(options);
+        break;
     case sward::app::Command::kInfo:
         sward::app::run_info();
         break;

@@ -44,6 +44,7 @@ constexpr NumberRange kGrid{1, 64, ""};
 constexpr NumberRange kLevel{0, 31, ""};
 constexpr NumberRange kWarm{0, 10'000, ""};
 constexpr NumberRange kIndex{0, 4294967295.0, ""};
+constexpr NumberRange kEvery{1e-3, 1e6, "seconds"};
 constexpr NumberRange kExitAfter{1, 1'000'000, ""};
 
 /// One option with a value. `name` as CLI11 takes it: "-o,--output".
@@ -184,6 +185,21 @@ void declare_view(CLI::App& app, Options* o) {
     })->group(""); // hidden: the smoke test's way out
 }
 
+void declare_wind(CLI::App& app, Options* o) {
+    declare_path(app, "SCENE", "PATH", "scene file, or directory with scene.toml", &o->scene);
+    app.get_option("SCENE")->required();
+    declare(app, "--time", "SECONDS", "simulated time",
+            [=](const std::string& text) { o->time_s = parse_number("--time", text, kTime); });
+    app.get_option("--time")->required();
+    declare_path(app, "-o,--output", "OUT.exr", "the picture; with --every a name with %d or %04d in it", &o->output);
+    app.get_option("--output")->required();
+    declare(app, "--every", "SECONDS", "a picture at 0 and each so many seconds up to --time",
+            [=](const std::string& text) { o->every_s = parse_number("--every", text, kEvery); });
+    declare(app, "--at", "x,z", "metres; what the window stands around; default 0,0",
+            [=](const std::string& text) { o->at = parse_place("--at", text); });
+    app.add_flag("--debug-gl", o->debug_gl, "an OpenGL debug context; any message is a failure (exit 1)");
+}
+
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return base::printable(text, 300);
@@ -229,9 +245,11 @@ Options parse_options(int argc, const char* const* argv) {
     CLI::App* const view = app.add_subcommand("view", "fly through a scene");
     CLI::App* const render =
         app.add_subcommand("render", "a picture or a sequence, without a window");
+    CLI::App* const wind = app.add_subcommand("wind", "the wind around a place, as pictures of numbers");
     CLI::App* const info = app.add_subcommand("info", "renderer, limits, versions, paths");
     declare_view(*view, &o);
     declare_render(*render, &o);
+    declare_wind(*wind, &o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -245,6 +263,7 @@ Options parse_options(int argc, const char* const* argv) {
     }
     o.command = view->parsed()     ? Command::kView
                 : render->parsed() ? Command::kRender
+                : wind->parsed()   ? Command::kWind
                                    : Command::kInfo;
     static_cast<void>(info);
     o.verbosity = quiet     ? base::Verbosity::kQuiet

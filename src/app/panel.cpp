@@ -112,7 +112,7 @@ void draw_help(bool* open) {
             ImGui::TextUnformatted(line);
         ImGui::Separator();
         for (const KeyBinding& key : kKeys)
-            ImGui::Text("%-4s %s", key.name, key.help);
+            ImGui::Text("%-7s %s", key.name, key.help);
     }
     ImGui::End();
 }
@@ -155,10 +155,12 @@ bool Panel::has_keyboard() const {
     return ImGui::GetIO().WantTextInput;
 }
 
-void Panel::draw(render::FrameSettings& settings, bool& running, const PanelFacts& facts) {
+void Panel::draw(render::FrameSettings& settings, bool& running, const PanelFacts& facts,
+                 const std::function<void()>& more) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    more();
     if (shown) {
         ImGui::SetNextWindowPos({10, 10}, ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSize({310, 0}, ImGuiCond_FirstUseEver);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,9 @@ public:
     [[nodiscard]] bool has_mouse() const;
     [[nodiscard]] bool has_keyboard() const;
     /// Draws into the window's framebuffer; edits `settings` and `running` (whether simulated time
-    /// goes on).
-    void draw(render::FrameSettings& settings, bool& running, const PanelFacts& facts);
+    /// goes on). `more` adds its own windows and overlays to the same ImGui frame.
+    void draw(render::FrameSettings& settings, bool& running, const PanelFacts& facts,
+              const std::function<void()>& more);
 
     bool shown = true;
     bool help = false;

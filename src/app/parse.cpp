@@ -123,4 +123,12 @@ scene::Pose parse_eye(const std::string& option, const std::string& text) {
     }
 }
 
+glm::dvec2 parse_place(std::string_view option, std::string_view text) {
+    constexpr NumberRange kPlace{-1e6, 1e6, "metres"};
+    const std::size_t comma = text.find(',');
+    if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos)
+        throw option_error(option, text, "x,z");
+    return {parse_number(option, text.substr(0, comma), kPlace), parse_number(option, text.substr(comma + 1), kPlace)};
+}
+
 } // namespace sward::app

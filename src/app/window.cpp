@@ -27,9 +27,13 @@ void on_error(int, const char* text) {
 }
 
 /// Presses, not the state of keys: in a slow frame a key goes down and up again unseen.
-void on_key(GLFWwindow*, int key, int, int action, int) {
+void on_key(GLFWwindow*, int key, int, int action, int mods) {
+    const auto code = [](char name) {
+        return name == 0x1b ? GLFW_KEY_ESCAPE : name == 0x7f ? GLFW_KEY_DELETE : static_cast<int>(name);
+    };
+    const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
     for (std::size_t i = 0; i < kKeys.size(); ++i)
-        if (action == GLFW_PRESS && key == (kKeys[i].key == 0x1b ? GLFW_KEY_ESCAPE : kKeys[i].key))
+        if (action == GLFW_PRESS && key == code(kKeys[i].key) && ctrl == kKeys[i].ctrl)
             g_pressed[i] = true;
 }
 
@@ -138,6 +142,10 @@ void Window::read_keyboard(Input& input) const {
     };
     input.move = {pair(GLFW_KEY_A, GLFW_KEY_D), pair(GLFW_KEY_Q, GLFW_KEY_E),
                   pair(GLFW_KEY_S, GLFW_KEY_W)};
+    // Ctrl makes commands of letters: saving must not fly backwards. Asked after the letters, so that none of them sticks.
+    if (glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+        glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS)
+        input.move = {0, 0, 0};
     input.fast = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
                  glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }

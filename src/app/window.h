@@ -12,21 +12,28 @@ struct GLFWwindow;
 namespace sward::app {
 
 /// What the keys of the viewer do once when pressed. The order is that of kKeys.
-enum class Action { kHelp, kPose, kScreenshot, kReload, kPanel, kQuit, kCount };
+enum class Action { kFlow, kArrows, kHelp, kPose, kScreenshot, kReload, kPanel, kQuit, kDelete, kRedo, kSave, kUndo, kCount };
 
 struct KeyBinding {
-    char key; ///< as on a US keyboard; 0x1b is Esc
+    char key; ///< as on a US keyboard; 0x1b is Esc, 0x7f Del
     const char* name;
     const char* help;
+    bool ctrl = false; ///< only together with Ctrl; the others only without
 };
 /// Declared once: the window listens to these, the help overlay lists them.
 inline constexpr std::array<KeyBinding, static_cast<std::size_t>(Action::kCount)> kKeys = {{
+    {'F', "F", "show the flow of the wind"},
+    {'G', "G", "edit the wind's arrows: gusts that a click sets"},
     {'H', "H", "this help"},
     {'K', "K", "print the pose on stdout, in the form --camera takes"},
     {'P', "P", "screenshot: sward-NNNN in the working directory"},
     {'R', "R", "reload shaders"},
     {'T', "T", "show or hide the panel"},
     {0x1b, "Esc", "quit"},
+    {0x7f, "Del", "editor: take out the selected point, with shift all that continues it"},
+    {'Y', "Ctrl+Y", "editor: redo", true},
+    {'S', "Ctrl+S", "editor: save the arrows into the scene file", true},
+    {'Z', "Ctrl+Z", "editor: undo", true},
 }};
 
 /// What keyboard, mouse and gamepad ask for in one frame.

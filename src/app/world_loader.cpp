@@ -21,6 +21,14 @@ scene::Scene load_scene(const Options& options) {
     return scene;
 }
 
+std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
+    std::map<fs::path, scene::Mesh> meshes;
+    for (const scene::WindObstacle& obstacle : scene.wind.obstacles)
+        if (!obstacle.mesh.empty() && !meshes.contains(obstacle.mesh))
+            meshes.emplace(obstacle.mesh, load_mesh(obstacle.mesh));
+    return meshes;
+}
+
 render::World load_world(const scene::Scene& scene) {
     // Quick to refuse first: a bake may take minutes.
     render::World world;
@@ -31,6 +39,7 @@ render::World load_world(const scene::Scene& scene) {
     world.elevation = load_elevation(scene.terrain);
     if (!scene.terrain.mask.empty())
         world.mask = load_mask(scene.terrain);
+    world.meshes = load_meshes(scene);
     world.grass = load_grass(scene);
     return world;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
+#include <map>
+
 #include "app/options.h"
 #include "render/renderer.h"
 
@@ -10,6 +13,8 @@ namespace sward::app {
 /// Throws Error.
 [[nodiscard]] scene::Scene load_scene(const Options& options);
 
+/// The meshes of the wind's obstacles, each once. Throws Error.
+[[nodiscard]] std::map<std::filesystem::path, scene::Mesh> load_meshes(const scene::Scene& scene);
 /// Every file that the scene names: elevation, mask, grass set. Throws Error, or AlreadyReported.
 [[nodiscard]] render::World load_world(const scene::Scene& scene);
 

@@ -76,14 +76,40 @@ class Display:
         self.x11.XResizeWindow(self.connection, ctypes.c_ulong(window), width, height)
         self.x11.XSync(self.connection, 0)
 
-    def tap(self, window, key):
-        code = self.x11.XKeysymToKeycode(self.connection, ctypes.c_ulong(ord(key)))
-        for kind, mask in ((2, 1), (3, 2)):  # KeyPress, KeyRelease
-            self.time += 10
-            event = XKeyEvent(type=kind, window=window, root=self.root, same_screen=1, keycode=code,
-                              time=self.time)
-            self.x11.XSendEvent(self.connection, ctypes.c_ulong(window), 0, mask, ctypes.byref(event))
+    def send(self, window, kind, mask, code, x=0, y=0, state=0):
+        """A key or button event: of these the two have the same layout."""
+        self.time += 10
+        event = XKeyEvent(type=kind, window=window, root=self.root, same_screen=1, keycode=code, time=self.time,
+                          x=x, y=y, state=state)
+        self.x11.XSendEvent(self.connection, ctypes.c_ulong(window), 0, mask, ctypes.byref(event))
         self.x11.XSync(self.connection, 0)
+
+    def key(self, window, key, down, state=0):
+        code = self.x11.XKeysymToKeycode(self.connection, ctypes.c_ulong(ord(key)))
+        self.send(window, *((2, 1) if down else (3, 2)), code, state=state)
+
+    def tap(self, window, key):
+        self.key(window, key, True)
+        self.key(window, key, False)
+
+    def command(self, window, key):
+        """Ctrl and a letter."""
+        control = chr(0xffe3)
+        self.key(window, control, True)
+        self.key(window, key, True, state=4)
+        self.key(window, key, False, state=4)
+        self.key(window, control, False)
+
+    def point(self, window, x, y):
+        self.x11.XWarpPointer(self.connection, ctypes.c_ulong(0), ctypes.c_ulong(window), 0, 0, 0, 0, x, y)
+        self.x11.XSync(self.connection, 0)
+
+    def press(self, window, x, y):
+        self.point(window, x, y)
+        self.send(window, 4, 4, 1, x, y)
+
+    def release(self, window, x, y):
+        self.send(window, 5, 8, 1, x, y)
 
 
 class View(CliCase):
@@ -129,7 +155,7 @@ class View(CliCase):
         self.assertGreater(self.display.colours(), 100)
         for width, height in ((200, 100), (1, 1), (WIDTH, HEIGHT), (3000, 20), (300, 200)):
             self.display.resize(window, width, height)
-        for key in "khpr":
+        for key in "fkhpr":
             self.display.tap(window, key)
         self.wait_for(lambda: (self.dir / "sward-0001.png").exists(), child)
         self.display.tap(window, "p")
@@ -141,6 +167,61 @@ class View(CliCase):
         self.assertEqual([float(n) for n in POSE.search(out).group().split(",")], [3, 2, 1, 45, -10])
         self.assertIn("shaders reloaded", err)
         self.assertNotIn("error: ", err)
+
+    def arrows(self):
+        """The arrows in the scene file: keys and values as text."""
+        blocks = (self.dir / "scene.toml").read_text().split("[[wind.arrow]]\n")[1:]
+        return [dict(line.split(" = ") for line in block.split("\n\n")[0].splitlines()) for block in blocks]
+
+    def frames(self, child, count=3):
+        """Waits until the picture has changed so often: the time that the editor shows goes on in each."""
+        for _ in range(count):
+            before = self.display.pixels()
+            self.wait_for(lambda: self.display.pixels() != before, child)
+
+    def test_arrow_editor(self):
+        before = (self.dir / "scene.toml").read_text()
+        child = self.view("--camera", "0,14,0,0,-60", "--fixed-timestep", "0.1", "--samples", "1")
+        self.wait_for(self.display.has_panel, child)
+        window = self.display.windows()[-1]
+        self.display.tap(window, "t")
+        self.wait_for(lambda: not self.display.has_panel(), child)
+        self.display.tap(window, "g")
+        self.wait_for(self.display.has_panel, child)
+        shows = lambda colour: self.wait_for(lambda: self.display.pixels().count(colour) > 5, child)
+        # Left of the editor's own window: a root that waits, then a selected arrow.
+        for x, y, colour in ((30, 220, 0x78ff8c), (90, 150, 0xff7828)):
+            self.display.press(window, x, y)
+            shows(colour)
+            self.display.release(window, x, y)
+            self.frames(child)
+        self.display.command(window, "s")
+        self.wait_for(lambda: len(self.arrows()) == 1, child)
+        arrow = self.arrows()[0]
+        self.assertTrue((self.dir / "scene.toml").read_text().startswith(before), "the rest of the file stays")
+        self.assertEqual(arrow["id"], '"arrow-1"')
+        # Dragged to the left, the tip lies further west; undone, it is back where it was.
+        self.display.press(window, 90, 150)
+        self.frames(child)
+        self.display.point(window, 40, 150)
+        self.frames(child)
+        self.display.release(window, 40, 150)
+        self.frames(child)
+        self.display.command(window, "s")
+        self.wait_for(lambda: self.arrows()[0] != arrow, child)
+        east = lambda a: float(a["tip"].strip("[]").split(",")[0])
+        self.assertLess(east(self.arrows()[0]), east(arrow) - 0.5)
+        self.assertEqual(self.arrows()[0]["root"], arrow["root"])
+        self.frames(child)
+        self.display.command(window, "z")
+        self.frames(child)
+        self.display.command(window, "s")
+        self.wait_for(lambda: self.arrows() == [arrow], child)
+        child.send_signal(signal.SIGTERM)
+        _, err = child.communicate(timeout=30)
+        self.assertEqual(child.returncode, 143, err)
+        self.assertNotIn("error: ", err)
+        self.assert_done(self.sward("render", "scene.toml", "-o", "out.png", "--size", "32x18"))
 
     def test_escape(self):
         child = self.view()
