@@ -105,7 +105,7 @@ public:
         for (Texel& texel : by_strand.texels)
             if (texel.blade >= 0)
                 texel.blade = strands_[static_cast<std::size_t>(texel.blade)];
-        keep_alpha(by_strand, ratio, std::vector<char>(static_cast<std::size_t>(strand_count_), 1));
+        keep_alpha(by_strand, ratio);
         for (std::size_t t = 0; t < image.texels.size(); ++t)
             image.texels[t].coverage = by_strand.texels[t].coverage;
     }
@@ -272,7 +272,7 @@ grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query,
     out.slices = empty_array(size, rows, 2 * out.slice_count * shared::kPlanes);
     const Preset preset;
     const Patch patch;
-    const BakeFrame frame{preset, patch, set.canopy_m, set.offset_range_m, seen, {}, query.threads, nullptr};
+    const BakeFrame frame{preset, patch, set.canopy_m, set.offset_range_m, seen, query.threads, nullptr};
     const std::vector<Task> tasks = plan_tasks(field, set, level, out);
     parallel_for(tasks.size(), resolve_threads(query.threads), [&](std::size_t t, int) { tasks[t].run(field, frame); });
     return out;

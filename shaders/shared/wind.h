@@ -23,6 +23,24 @@ struct WindField {
 static_assert(sizeof(WindField) == 112);
 #endif
 
+// Winds that the far appearance is computed for: 0.5, 1 and 1.5 times the mean one.
+SHARED_CONST int kFarWinds = 3;
+
+// The speed that far winds are parts of (m/s): the mean one, but never so little that arrows in still air would find no table.
+SHARED_FN float far_wind_speed(WindField field) {
+    return max(length(vec2(field.mean.x, field.mean.y)), 2.0f);
+}
+SHARED_FN vec2 far_wind(WindField field, int index) {
+    vec2 mean = vec2(field.mean.x, field.mean.y);
+    float speed = length(mean);
+    vec2 way = speed > 0.0f ? mean / speed : vec2(1.0f, 0.0f);
+    return way * (far_wind_speed(field) * (speed > 0.0f ? 0.5f + 0.5f * float(index) : 0.0f));
+}
+// Place of a wind among them, 0 .. kFarWinds - 1.
+SHARED_FN float far_wind_place(WindField field, vec2 wind) {
+    return clamp(2.0f * length(wind) / far_wind_speed(field) - 1.0f, 0.0f, float(kFarWinds - 1));
+}
+
 // Four elements around a place on a grid of cell centres, and the place among them.
 struct WindTap {
     ivec4 at;    // elements north-west, north-east, south-west, south-east

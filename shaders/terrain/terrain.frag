@@ -8,12 +8,17 @@ layout(binding = TEX_FAR_APPEARANCE) uniform sampler2DArray far_appearance;
 
 in vec3 world;
 in vec2 sway;
+in float gust;
 
 // The whole canopy by the sun's azimuth from the eye's and the elevation of the view.
 struct Canopy {
     vec4 sun; // radiance by sunlight on flat ground; coverage
     vec4 sky; // radiance by skylight; mean height of what is seen
 };
+
+Canopy canopy_in_wind(vec2 uv, float wind) {
+    return Canopy(textureLod(far_appearance, vec3(uv, 2.0 * wind), 0.0), textureLod(far_appearance, vec3(uv, 2.0 * wind + 1.0), 0.0));
+}
 
 Canopy canopy_from_afar(vec3 to_eye, vec3 normal) {
     vec2 eye = normalize(to_eye.xz + vec2(1e-5, 0.0));
@@ -22,7 +27,10 @@ Canopy canopy_from_afar(vec3 to_eye, vec3 normal) {
     float elevation = clamp(dot(to_eye, normal), 0.0, 1.0);
     vec2 size = vec2(textureSize(far_appearance, 0));
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
-    return Canopy(textureLod(far_appearance, vec3(uv, 0.0), 0.0), textureLod(far_appearance, vec3(uv, 1.0), 0.0));
+    float calmer = min(floor(gust), float(kFarWinds - 2));
+    Canopy low = canopy_in_wind(uv, calmer);
+    Canopy high = canopy_in_wind(uv, calmer + 1.0);
+    return Canopy(mix(low.sun, high.sun, gust - calmer), mix(low.sky, high.sky, gust - calmer));
 }
 
 void main() {

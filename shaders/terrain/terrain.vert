@@ -7,6 +7,7 @@ layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSamp
 
 out vec3 world;
 out vec2 sway;
+out float gust; // place of the wind here among those that the far appearance knows
 
 void main() {
     TerrainBlock block = blocks[gl_InstanceID];
@@ -14,5 +15,6 @@ void main() {
     vec2 xz = block.place.xy + cell * block.place.z;
     world = vec3(xz.x, samples[gl_InstanceID * kBlockPosts + gl_VertexID].ground.x, xz.y);
     sway = samples[gl_InstanceID * kBlockPosts + gl_VertexID].sway.xy;
+    gust = far_wind_place(frame.wind, samples[gl_InstanceID * kBlockPosts + gl_VertexID].motion.zw);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

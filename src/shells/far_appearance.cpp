@@ -190,9 +190,13 @@ void FarAppearance::update(const shared::Light& light, const shared::WindField& 
     }
     light_ = light;
     wind_ = wind.mean;
-    const std::vector<glm::vec4> texels = canopy_table(set_.far_light, light, wind_);
+    std::vector<glm::vec4> texels;
+    for (int n = 0; n < shared::kFarWinds; ++n) {
+        const std::vector<glm::vec4> one = canopy_table(set_.far_light, light, {shared::far_wind(wind, n), 0, wind_.w});
+        texels.insert(texels.end(), one.begin(), one.end());
+    }
     if (!table_.id()) {
-        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, 2});
+        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, 2 * shared::kFarWinds});
         table_.set_filter(GL_LINEAR, GL_LINEAR);
         table_.set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
     }

@@ -10,8 +10,8 @@
 
 namespace sward::shells {
 
-/// The canopy as the ground beyond the shells wears it, from the set's far light: RGBA, kAzimuths x kElevations, two layers. Layer 0:
-/// radiance by sunlight on flat ground, coverage. Layer 1: radiance by skylight, mean height (0..1) of what is seen. Columns: angle
+/// The canopy as the ground beyond the shells wears it, from the set's far light: RGBA, kAzimuths x kElevations, two layers for each of shared::kFarWinds winds, so that
+/// gusts are seen to run over far hills. Even layers: radiance by sunlight on flat ground, coverage. Odd ones: radiance by skylight, mean height (0..1) of what is seen. Columns: angle
 /// from the direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1.
 class FarAppearance {
 public:
@@ -19,7 +19,7 @@ public:
     static constexpr int kElevations = 24;
 
     explicit FarAppearance(const grass::GrassSet& set) : set_(set) {}
-    /// Computed when the light or the mean wind changes, in about a millisecond on the CPU.
+    /// Computed when the light or the mean wind changes, in a few milliseconds on the CPU.
     void update(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
@@ -30,7 +30,7 @@ private:
     gl::Texture table_;
 };
 
-/// The texels of that table, layer-major: `wind` is the mean wind's velocity x, z (m/s) and the grass's response (WindField::mean).
+/// The texels of one wind's two layers, layer-major: `wind` is its velocity x, z (m/s) and the grass's response (WindField::mean).
 [[nodiscard]] std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light, const glm::vec4& wind);
 
 /// Share of the slices at a view elevation (radians), likewise.

@@ -316,7 +316,7 @@ TEST_F(Render, FarAppearanceIsUsableAllOverTheHemisphere) {
         appearance.bind();
         GLint id = 0;
         glGetIntegeri_v(GL_TEXTURE_BINDING_2D_ARRAY, TEX_FAR_APPEARANCE, &id);
-        std::vector<float> texels(2 * 4 * shells::FarAppearance::kAzimuths *
+        std::vector<float> texels(2 * shared::kFarWinds * 4 * shells::FarAppearance::kAzimuths *
                                   shells::FarAppearance::kElevations);
         glGetTextureImage(static_cast<GLuint>(id), 0, GL_RGBA, GL_FLOAT,
                           static_cast<GLsizei>(texels.size() * sizeof(float)), texels.data());
