@@ -30,6 +30,7 @@
 #define TEX_RESOLVE_TANGENT 8
 #define TEX_RESOLVE_NORMAL 9
 #define TEX_RESOLVE_DEPTH 10
+#define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
