@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
-#include <cstdio>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "texgen/commands.h"
+#include "texgen/dry_run.h"
+#include "texgen/export.h"
 #include "texgen/preset.h"
 #include "texgen/report.h"
 #include "texgen/writer.h"
@@ -43,6 +44,8 @@ int run_bake(const BakeCommandOptions& o) {
     require_set_place(o.output);
     if (o.preview_file)
         require_preview_place(*o.preview_file, o.output);
+    if (o.export_format != ExportFormat::kNone)
+        require_export_place(export_directory(o.output, o.export_format));
     BakeOptions options;
     options.threads = o.threads;
     options.preview = o.preview;
@@ -51,13 +54,21 @@ int run_bake(const BakeCommandOptions& o) {
     options.block = o.compression.block;
     options.check_nan = o.check_nan;
     options.preview_file = o.preview_file;
+    if (o.dry_run) {
+        SetReport report = dry_run(preset, options);
+        report.path = o.output.string();
+        print_result(o.json ? report_json(report) : report_text(report));
+        return 0;
+    }
     const auto start = std::chrono::steady_clock::now();
     const grass::GrassSet set = bake_set(preset, options);
     const std::vector<FileEntry> files = write_set(set, preset, o.output, options);
+    if (o.export_format != ExportFormat::kNone)
+        export_pictures(set, export_directory(o.output, o.export_format), o.export_format, o.threads);
     if (o.json) {
         SetReport report = report_of(set, o.output.string(), files);
         report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        std::fputs(report_json(report).c_str(), stdout);
+        print_result(report_json(report));
     }
     return 0;
 }

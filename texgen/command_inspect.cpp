@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdio>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -118,7 +116,7 @@ int run_inspect(const InspectOptions& options) {
                              : extension == ".vdb" ? inspect_vdb(options.input, options.json)
                              : extension == ".ktx2" ? inspect_texture(options.input, options.json)
                                                     : inspect_set(options.input, options.json);
-    std::fputs(text.c_str(), stdout);
+    print_result(text);
     return 0;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every file against its hash, then every number against its limit. Nothing is parsed before its hash is
 // right.
-#include <cstdio>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +8,7 @@
 #include "grass/grass_set.h"
 #include "grass/set_files.h"
 #include "texgen/commands.h"
+#include "texgen/report.h"
 #include "texgen/set_files_check.h"
 #include "texgen/volume.h"
 
@@ -55,11 +54,11 @@ int run_verify(const VerifyOptions& options) {
         base::log_error(error.what());
         report["ok"] = false;
         report["error"] = error.what();
-        fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_result(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
         return static_cast<int>(error.code());
     }
     if (options.json)
-        fmt::print("{}\n", report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        print_result(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return 0;
 }
 

@@ -16,30 +16,6 @@ namespace {
 
 using grass::TextureArray;
 
-/// Sizes of one level, and where its images go.
-struct LevelPlan {
-    int level = 0;
-    int size = 0;
-    double texel_m = 0;
-    int layers = 0;
-    int images = 0; ///< of layers, a variant: 1 for a height map
-    int slices = 0;
-    int rows = 0;
-};
-
-LevelPlan plan_level(const Preset& preset, double canopy_m, int level) {
-    LevelPlan plan;
-    plan.level = level;
-    plan.size = static_cast<int>(preset.size) >> level;
-    plan.texel_m = preset.side_m / plan.size;
-    plan.layers = std::max(2, static_cast<int>(preset.layers) >> level);
-    plan.images = height_coding(preset) == shared::kHeightNone ? plan.layers : 1;
-    // Further apart than the canopy is tall, slices would show as rows from above.
-    plan.slices = std::max(4, static_cast<int>(preset.slices) >> level);
-    plan.rows = slice_rows(canopy_m, plan.texel_m);
-    return plan;
-}
-
 TextureArray empty_array(int width, int height, int layers) {
     TextureArray array{width, height, layers, {}};
     for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
@@ -131,6 +107,19 @@ std::vector<Task> plan_tasks(const BakeFrame& frame, const LevelPlan& plan, gras
 }
 
 } // namespace
+
+LevelPlan plan_level(const Preset& preset, double canopy_m, int level) {
+    LevelPlan plan;
+    plan.level = level;
+    plan.size = static_cast<int>(preset.size) >> level;
+    plan.texel_m = preset.side_m / plan.size;
+    plan.layers = std::max(2, static_cast<int>(preset.layers) >> level);
+    plan.images = height_coding(preset) == shared::kHeightNone ? plan.layers : 1;
+    // Further apart than the canopy is tall, slices would show as rows from above.
+    plan.slices = std::max(4, static_cast<int>(preset.slices) >> level);
+    plan.rows = slice_rows(canopy_m, plan.texel_m);
+    return plan;
+}
 
 int slice_rows(double canopy_m, double texel_m) {
     const int rows = static_cast<int>(std::ceil(canopy_m / texel_m));

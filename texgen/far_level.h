@@ -28,6 +28,18 @@ struct BakeFrame {
 /// Farthest from a texel of mip 0 to its blade's root, over all levels and families.
 [[nodiscard]] double offset_range(const Preset& preset, const Patch& patch);
 
+/// Sizes of one level.
+struct LevelPlan {
+    int level = 0;
+    int size = 0; ///< texels a side
+    double texel_m = 0;
+    int layers = 0;
+    int images = 0; ///< of layers, a variant: 1 for a height map
+    int slices = 0; ///< an axis
+    int rows = 0;   ///< of a slice
+};
+[[nodiscard]] LevelPlan plan_level(const Preset& preset, double canopy_m, int level);
+
 /// Images of level `level` that progress counts.
 [[nodiscard]] std::size_t level_images(const Preset& preset, int level);
 

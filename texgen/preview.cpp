@@ -7,9 +7,12 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "assets/assets.h"
 #include "base/hash.h"
 #include "shared/shading.h"
+#include "texgen/canvas.h"
 #include "texgen/flat_rays.h"
 #include "texgen/parallel.h"
 #include "texgen/rays.h"
@@ -21,6 +24,8 @@ using glm::dvec3;
 
 constexpr int kMargin = 8;
 constexpr int kPanel = 400;
+constexpr int kCaption = 22; // pixels above a panel
+const dvec3 kPaper(0.01);
 const dvec3 kSun = glm::normalize(dvec3(0.5, 0.75, 0.35));
 const dvec3 kSoil(0.075, 0.055, 0.038);
 const dvec3 kSky(0.45, 0.60, 0.80);
@@ -53,39 +58,6 @@ private:
     shared::Light light_{shared::vec4(shared::vec3(kSun), 0.55f), {3.4f, 3.2f, 2.8f, 0}, {0.2f, 0.4f, 0.8f, 1.1f}, {0.8f, 0.95f, 1.1f, 1}};
 };
 
-/// A picture of linear colour.
-struct Canvas {
-    int width, height;
-    std::vector<dvec3> texels;
-
-    Canvas(int w, int h, dvec3 fill)
-        : width(w), height(h),
-          texels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h), fill) {}
-    dvec3& at(int x, int y) {
-        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x)];
-    }
-    const dvec3& at(int x, int y) const {
-        return texels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                      static_cast<std::size_t>(x)];
-    }
-
-    /// Area average of `source` over the rectangle at x0, y0.
-    void place(const Canvas& source, int x0, int y0, int w, int h) {
-        for (int y = 0; y < h; ++y)
-            for (int x = 0; x < w; ++x) {
-                dvec3 sum(0);
-                int count = 0;
-                const int u1 = std::max(x * source.width / w + 1, (x + 1) * source.width / w);
-                const int v1 = std::max(y * source.height / h + 1, (y + 1) * source.height / h);
-                for (int v = y * source.height / h; v < v1; ++v)
-                    for (int u = x * source.width / w; u < u1; ++u, ++count)
-                        sum += source.at(u, v);
-                at(x0 + x, y0 + y) = sum / static_cast<double>(count);
-            }
-    }
-};
-
 /// One image of an array, both planes.
 class Image {
 public:
@@ -100,9 +72,13 @@ public:
     std::pair<dvec3, double> texel(const Shader& shader, int x, int y, double layer_height) const {
         const std::size_t t = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                                    static_cast<std::size_t>(x));
-        const double coverage = id_[t] / 255.0;
+        double coverage = id_[t] / 255.0;
         if (coverage == 0)
             return {dvec3(0), 0};
+        if (height_coding != shared::kHeightNone) { // B1: the byte is the height of what is seen from above
+            layer_height = shared::decode_height(static_cast<float>(coverage), height_coding);
+            coverage = 1;
+        }
         const shared::vec3 tangent =
             shared::decode_tangent(shared::vec2(shape_[t], shape_[t + 1]) / 255.0f);
         const Shader::Place place{static_cast<std::size_t>(shared::decode_species(id_[t + 3])), (id_[t + 1] + 0.5) / 256,
@@ -111,6 +87,7 @@ public:
     }
 
     const int width, height;
+    int height_coding = shared::kHeightNone; ///< of a height map's image
 
 private:
     [[nodiscard]] std::size_t bytes() const {
@@ -120,15 +97,17 @@ private:
     const std::uint8_t* shape_;
 };
 
-/// All layers of a level seen from above, front to back.
-Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int variant) {
+/// All layers of a level seen from above, front to back, at a mip. `covered`: the mean coverage.
+Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int variant, int mip = 0,
+                double* covered = nullptr) {
     const grass::FarLevel& far = set.levels[static_cast<std::size_t>(level)];
-    Canvas canvas(far.layers.width, far.layers.height, dvec3(0));
+    Canvas canvas(std::max(1, far.layers.width >> mip), std::max(1, far.layers.height >> mip), dvec3(0));
     std::vector<double> clear(canvas.texels.size(), 1.0);
-    for (int i = far.layer_count - 1; i >= 0; --i) {
-        const Image image(far.layers,
+    for (int i = grass::layer_images(set, far) - 1; i >= 0; --i) {
+        Image image(far.layers,
                           grass::layer_image(set, far, variant, i, shared::kPlaneId),
-                          grass::layer_image(set, far, variant, i, shared::kPlaneShape), 0);
+                          grass::layer_image(set, far, variant, i, shared::kPlaneShape), mip);
+        image.height_coding = set.height_coding;
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
                 const auto [colour, coverage] =
@@ -138,8 +117,13 @@ Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int
                 open *= 1 - coverage;
             }
     }
-    for (std::size_t t = 0; t < clear.size(); ++t)
+    double open = 0;
+    for (std::size_t t = 0; t < clear.size(); ++t) {
         canvas.texels[t] += Shader::ground() * clear[t];
+        open += clear[t];
+    }
+    if (covered)
+        *covered = 1 - open / static_cast<double>(clear.size());
     return canvas;
 }
 
@@ -180,21 +164,6 @@ Canvas tiling(const grass::GrassSet& set, const Shader& shader) {
         for (int y = 0; y < size; ++y)
             std::copy_n(&top.at(0, y), size, &canvas.at(tile % 3 * size, tile / 3 * size + y));
     }
-    return canvas;
-}
-
-/// A mip of the middle layer over soil.
-Canvas mip_view(const grass::GrassSet& set, const Shader& shader, int mip) {
-    const grass::FarLevel& far = set.levels.front();
-    const int layer = far.layer_count / 2;
-    const Image image(far.layers, grass::layer_image(set, far, 0, layer, shared::kPlaneId),
-                      grass::layer_image(set, far, 0, layer, shared::kPlaneShape), mip);
-    Canvas canvas(std::max(1, image.width / 2), std::max(1, image.height / 2), dvec3(0));
-    for (int y = 0; y < canvas.height; ++y)
-        for (int x = 0; x < canvas.width; ++x) {
-            const auto [colour, coverage] = image.texel(shader, x, y, 0.75);
-            canvas.at(x, y) = glm::mix(Shader::ground(), colour, coverage);
-        }
     return canvas;
 }
 
@@ -269,25 +238,95 @@ scene::Picture encode(const Canvas& canvas) {
     return picture;
 }
 
+/// "2 m", "25 cm", "4 mm".
+std::string readable_length(double metres) {
+    if (metres >= 1)
+        return fmt::format("{:.3g} m", metres);
+    return metres >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.2g} mm", metres * 1000);
+}
+
+/// The sheet, filled panel by panel from the top left.
+class Sheet {
+public:
+    Sheet(int width, int height) : canvas(width, height, kPaper) {}
+
+    /// A picture with a caption above it and a scale bar in its corner, where `pixels_per_m` is known.
+    void panel(const Canvas& picture, glm::ivec4 box, const std::string& caption, double pixels_per_m = 0) {
+        canvas.text(caption, box.x, box.y - kCaption + 3);
+        canvas.place(picture, box.x, box.y, box.z, box.w);
+        if (pixels_per_m > 0)
+            scale_bar(box, pixels_per_m);
+    }
+
+    Canvas canvas;
+
+private:
+    /// A round length of a tenth to a quarter of the panel.
+    void scale_bar(glm::ivec4 box, double pixels_per_m) {
+        const double most = box.z * 0.3 / pixels_per_m;
+        double length = std::pow(10, std::floor(std::log10(most)));
+        for (const double step : {5.0, 2.0})
+            if (length * step <= most) {
+                length *= step;
+                break;
+            }
+        const int pixels = static_cast<int>(std::lround(length * pixels_per_m));
+        const std::string words = readable_length(length);
+        const int x = box.x + box.z - pixels - 12, y = box.y + box.w - 12;
+        const int wide = std::max(pixels, text_width(words, 1));
+        canvas.fill(box.x + box.z - wide - 18, y - 14, wide + 14, 24, dvec3(0.01));
+        canvas.fill(x, y, pixels, 3, dvec3(0.5));
+        canvas.text(words, box.x + box.z - wide - 12, y - 10, {1, dvec3(0.5)});
+    }
+};
+
+constexpr int kMips = 5;
+
+/// Mips of level 0, one beside the other: the same colour and coverage, ever coarser.
+void place_mips(Sheet& sheet, const grass::GrassSet& set, const Shader& shader, glm::ivec2 corner, int side) {
+    for (int m = 0; m < std::min<int>(kMips, static_cast<int>(set.levels[0].layers.mips.size())); ++m) {
+        double covered = 0;
+        const Canvas picture = top_view(set, shader, 0, 0, m, &covered);
+        sheet.panel(picture, {corner.x + m * (side + kMargin), corner.y, side, side},
+                    fmt::format("mip {}: {} texels, {:.1f} %", m, picture.width, 100 * covered));
+    }
+}
+
+std::string title(const grass::GrassSet& set) {
+    std::string words = fmt::format("{}: {} m, {} variants, {:.0f} blades/m2, canopy {}, seed {}", set.name,
+                                    set.side_m, set.variants, set.density_per_m2, readable_length(set.canopy_m), set.seed);
+    for (const grass::Species& species : set.species)
+        words += fmt::format("{} {} {:.0f} %", set.species.size() > 1 || &species == &set.species.front() ? "," : "", species.name,
+                             100 * species.share);
+    return words;
+}
+
 } // namespace
 
 void write_preview(const grass::GrassSet& set, const std::filesystem::path& path, int threads) {
     const Shader shader(set);
-    const int width = kPanel * 3 / 2 + 2 * kPanel + 4 * kMargin;
-    const int full = width - 2 * kMargin;
-    const int side_rows =
-        std::clamp(static_cast<int>(full * set.canopy_m / set.side_m), 24, kPanel);
-    constexpr int kMips = 5;
-    const int mip_side = (full - (kMips - 1) * kMargin) / kMips;
-    Canvas sheet(width, kPanel + side_rows + mip_side + 4 * kMargin, dvec3(0.01));
-    sheet.place(perspective(set, shader, threads), kMargin, kMargin, kPanel * 3 / 2, kPanel);
-    sheet.place(top_view(set, shader, 0, 0), kPanel * 3 / 2 + 2 * kMargin, kMargin, kPanel, kPanel);
-    sheet.place(tiling(set, shader), kPanel * 5 / 2 + 3 * kMargin, kMargin, kPanel, kPanel);
-    sheet.place(side_view(set, shader), kMargin, kPanel + 2 * kMargin, full, side_rows);
-    for (int m = 0; m < kMips; ++m)
-        sheet.place(mip_view(set, shader, m), kMargin + m * (mip_side + kMargin),
-                    kPanel + side_rows + 3 * kMargin, mip_side, mip_side);
-    assets::write_png(path, encode(sheet));
+    constexpr int kWidth = kPanel * 3 / 2 + 2 * kPanel + 4 * kMargin;
+    constexpr int kFull = kWidth - 2 * kMargin;
+    const int side_rows = std::clamp(static_cast<int>(kFull * set.canopy_m / set.side_m), 24, kPanel);
+    const int mip_side = (kFull - (kMips - 1) * kMargin) / kMips;
+    const int top = 2 * kMargin + 2 * kCaption, middle = top + kPanel + kMargin + kCaption,
+              bottom = middle + side_rows + kMargin + kCaption;
+    Sheet sheet(kWidth, bottom + mip_side + kMargin);
+    sheet.canvas.text(title(set), kMargin, kMargin + 2);
+    const double patch_scale = kPanel / static_cast<double>(set.side_m);
+    sheet.panel(perspective(set, shader, threads), {kMargin, top, kPanel * 3 / 2, kPanel}, "blades in perspective");
+    sheet.panel(top_view(set, shader, 0, 0), {kPanel * 3 / 2 + 2 * kMargin, top, kPanel, kPanel},
+                "layers from above, variant 0", patch_scale);
+    sheet.panel(tiling(set, shader), {kPanel * 5 / 2 + 3 * kMargin, top, kPanel, kPanel}, "3 x 3 tiles, mixed variants",
+                patch_scale / 3);
+    const double side_scale = kFull / static_cast<double>(set.side_m);
+    const double stretch = side_rows / (set.canopy_m * side_scale);
+    sheet.panel(side_view(set, shader), {kMargin, middle, kFull, side_rows},
+                std::abs(stretch - 1) < 0.05 ? "slices across z from the side, a quarter of the patch deep"
+                                             : fmt::format("slices across z from the side, height x {:.2f}", stretch),
+                side_scale);
+    place_mips(sheet, set, shader, {kMargin, bottom}, mip_side);
+    assets::write_png(path, encode(sheet.canvas));
 }
 
 } // namespace sward::texgen

@@ -2,10 +2,12 @@
 #include "texgen/report.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 
@@ -221,6 +223,12 @@ std::string report_json(const SetReport& r) {
     if (r.seconds)
         root["seconds"] = *r.seconds;
     return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+void print_result(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
+        throw base::Error(base::ExitCode::kIo,
+                          "standard output: cannot write: found no room, expected room for the report");
 }
 
 } // namespace sward::texgen

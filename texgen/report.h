@@ -58,6 +58,9 @@ struct SetReport {
 [[nodiscard]] std::string report_text(const SetReport& report);
 [[nodiscard]] std::string report_json(const SetReport& report);
 
+/// A result on standard output. Throws base::Error(kIo) when it does not arrive there.
+void print_result(const std::string& text);
+
 /// "1.5 MiB".
 [[nodiscard]] std::string readable_bytes(std::uint64_t bytes);
 

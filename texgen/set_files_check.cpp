@@ -108,7 +108,7 @@ std::vector<std::string> foreign_files(const fs::path& directory) {
     std::vector<std::string> names = unlisted_files(directory, entries);
     std::erase_if(names, [](const std::string& name) {
         const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
-        return texture || name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;
+        return texture || name.starts_with("far.") || name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;
     });
     return names;
 }

@@ -67,6 +67,7 @@
 #define TEX_RESOLVE_DEPTH 10
 #define TEX_WIND_AMBIENT 11    // RGBA32F buffer: cells of the ambient tile, previous and latest state
 #define TEX_WIND_LOCAL 12      // RGBA32F buffer: cells of the local window likewise
+#define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup

@@ -5,6 +5,9 @@
 #include "shared/blade.h"
 
 layout(binding = TEX_FAR_IMAGES) uniform sampler2DArray far_images;
+#ifdef BLOCK_SHAPES
+layout(binding = TEX_FAR_SHAPES) uniform sampler2DArray far_shapes;
+#endif
 
 in vec3 world;
 in vec3 rest;
@@ -50,7 +53,7 @@ bool own_blade(float rank, float seed, vec3 root, float dither) {
 }
 
 struct FarTexel {
-    vec3 uv;        // of the id plane
+    vec3 uv;        // of the id plane, counted with the shape planes between
     float mip;
     ivec2 cell;     // texel at that mip, over the whole world
     float dither;
@@ -74,10 +77,23 @@ FarTexel find_texel() {
     return FarTexel(vec3(uv, layer), mip, ivec2(floor(uv * size * exp2(-mip))), dither);
 }
 
+// The two planes of a texel (shared/grass_layout.h). With BLOCK_SHAPES the ids are alone in their array, and the shape's two halves
+// stand where id and shape stood.
+void read_planes(FarTexel texel, out vec4 id, out vec4 shape) {
+    vec3 next = texel.uv + vec3(0.0, 0.0, kPlaneShape);
+#ifdef BLOCK_SHAPES
+    id = textureLod(far_images, vec3(texel.uv.xy, texel.uv.z / float(kPlanes)), texel.mip);
+    shape = vec4(textureLod(far_shapes, texel.uv, texel.mip).rg, textureLod(far_shapes, next, texel.mip).rg);
+#else
+    id = textureLod(far_images, texel.uv, texel.mip);
+    shape = textureLod(far_images, next, texel.mip);
+#endif
+}
+
 void main() {
     FarTexel texel = find_texel();
-    vec4 id = textureLod(far_images, texel.uv, texel.mip);
-    vec4 shape = textureLod(far_images, texel.uv + vec3(0.0, 0.0, kPlaneShape), texel.mip);
+    vec4 id, shape;
+    read_planes(texel, id, shape);
     int code = int(id.a * 255.0 + 0.5);
     float along = decode_along(code);
 #ifndef SLICES

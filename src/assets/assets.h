@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "scene/heightfield.h"
 #include "scene/image.h"
@@ -31,6 +33,15 @@ namespace sward::assets {
 
 /// 8-bit sRGB PNG. `metadata` is not written: the same picture gives the same bytes. Throws Error(kIo).
 void write_png(const std::filesystem::path& path, const scene::Picture& picture);
+/// 8-bit PNG of 1 to 4 channels, interleaved, row 0 at the top; a fourth is straight alpha.
+struct ByteImage {
+    int width = 0;
+    int height = 0;
+    int channels = 3;
+    std::vector<std::uint8_t> values;
+    bool colour = true; ///< sRGB-encoded; else numbers, marked as such
+};
+void write_png(const std::filesystem::path& path, const ByteImage& image);
 /// Half-float (colour) and float (everything else) EXR, zip-compressed, named channels. Throws Error(kIo).
 void write_exr(const std::filesystem::path& path, const scene::Image& image);
 

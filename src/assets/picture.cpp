@@ -55,6 +55,19 @@ void write_png(const std::filesystem::path& path, const scene::Picture& picture)
     encode_and_write(path, "png", spec, OIIO::TypeDesc::UINT8, picture.rgb.data());
 }
 
+void write_png(const std::filesystem::path& path, const ByteImage& image) {
+    const auto pixels = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0));
+    if (pixels == 0 || image.channels < 1 || image.channels > 4 ||
+        image.values.size() != pixels * static_cast<std::size_t>(image.channels))
+        throw failure(path, "picture",
+                      fmt::format("{} bytes for {} pixels of {} channels", image.values.size(),
+                                  pixels, image.channels));
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", image.colour ? "sRGB" : "Linear");
+    spec.attribute("oiio:UnassociatedAlpha", 1); // written as it is, not divided by alpha
+    encode_and_write(path, "png", spec, OIIO::TypeDesc::UINT8, image.values.data());
+}
+
 void write_exr(const std::filesystem::path& path, const scene::Image& image) {
     const auto pixels =
         std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0));

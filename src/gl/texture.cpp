@@ -15,7 +15,7 @@ namespace {
 
 int texel_bytes(std::uint32_t format) {
     switch (format) {
-    case GL_R8: return 1;
+    case GL_R8: case GL_COMPRESSED_RG_RGTC2: return 1; // of blocks: 16 bytes for 4 x 4 texels
     case GL_RG8: case GL_R16F: return 2;
     case GL_RGBA16F: return 8;
     case GL_RGBA32F: return 16;
@@ -77,6 +77,12 @@ void Texture::upload(int mip, std::uint32_t format, std::uint32_t type, const vo
     } else {
         glTextureSubImage2D(id_, mip, 0, 0, w, h, format, type, data);
     }
+}
+
+void Texture::upload_blocks(int mip, std::uint32_t internal_format, const void* data, std::size_t bytes) {
+    const int w = std::max(1, shape_.width >> mip);
+    const int h = std::max(1, shape_.height >> mip);
+    glCompressedTextureSubImage3D(id_, mip, 0, 0, 0, w, h, shape_.layers, internal_format, static_cast<GLsizei>(bytes), data);
 }
 
 void Texture::set_filter(std::uint32_t minify, std::uint32_t magnify) {

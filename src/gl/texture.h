@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -25,6 +26,8 @@ public:
 
     /// Replaces one mip (all layers); `data` is tightly packed.
     void upload(int mip, std::uint32_t format, std::uint32_t type, const void* data);
+    /// Likewise for a block-compressed array: `bytes` of whole blocks.
+    void upload_blocks(int mip, std::uint32_t internal_format, const void* data, std::size_t bytes);
     void set_filter(std::uint32_t minify, std::uint32_t magnify);
     void set_wrap(std::uint32_t s, std::uint32_t t);
     void bind(std::uint32_t unit) const;

@@ -40,8 +40,8 @@ struct FarLevel {
     TextureArray slices;           ///< variants * 2 axes * slice_count * 2 planes, (size >> k) x rows
     /// The shape planes as BC5, where the set keeps them so (no mips otherwise): image 2 i is the tangent of image i, 2 i + 1
     /// its root offset. `layers` and `slices` then hold what these decode to.
-    TextureArray layers_shape;
-    TextureArray slices_shape;
+    TextureArray layers_shape = {};
+    TextureArray slices_shape = {};
 };
 
 /// The whole canopy seen from far away, by view elevation: what rays through the blades meet, and how the flat textures

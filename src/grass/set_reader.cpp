@@ -270,6 +270,10 @@ void read_family(const SetJson& set, const fs::path& directory, const FamilyFile
                                             shape->mips.size()),
                                 fmt::format("{} x {}, {} mips as in {}", ids.width, ids.height,
                                             ids.mips.size(), files.planes));
+    if (mip_bytes(ids, 0) > kMaxArrayBytes / (2 * shared::kPlanes))
+        throw base::input_error(ExitCode::kOverLimit, directory / files.planes, 0, "array",
+                                fmt::format("{} bytes of ids", mip_bytes(ids, 0)),
+                                "at most 256 MiB");
     planes = join_planes(ids, *shape);
 }
 
@@ -287,6 +291,9 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
                                            static_cast<std::size_t>(level.layer_count), out.canopy_m);
         // Names are ours, not the file's: nothing outside the directory can be asked for.
         const bool block = entry.contains("layers_shape");
+        if (k > 0 && block != !out.levels[0].layers_shape.mips.empty())
+            set.refuse("levels", fmt::format("level {} packed otherwise than level 0", k),
+                       "BC5 in all levels or in none");
         read_family(set, directory,
                     {layers_file(k), layers_shape_file(k), out.variants * layer_images(out, level)},
                     level.layers, block ? &level.layers_shape : nullptr);

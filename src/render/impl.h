@@ -20,9 +20,9 @@ namespace sward::render {
 
 /// Draw passes of one variant: with or without AOV outputs.
 struct DrawPasses {
-    explicit DrawPasses(bool aov)
-        : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov),
-          slices(shells::FarPass::Family::kSlices, aov), screen(aov) {}
+    DrawPasses(bool aov, bool block_shapes)
+        : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), screen(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;
     shells::FarPass shells, slices;

@@ -58,7 +58,7 @@ Renderer::Impl::Impl(World inputs)
 DrawPasses& Renderer::Impl::passes(bool aov) {
     auto& slot = aov ? aov_passes : plain_passes;
     if (!slot) {
-        slot = std::make_unique<DrawPasses>(aov);
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes());
     }
     return *slot;
 }

@@ -12,13 +12,16 @@ namespace {
 constexpr int kColumns = shared::kBlockCells; // of a slice's strip
 constexpr int kRows = 3;                      // of level 0's strips: enough for their bend; each costs 9 vertices a slice
 
-std::vector<std::string> defines(FarPass::Family family, bool aov) {
+std::vector<std::string> defines(FarPass::Family family, bool aov, bool block_shapes) {
     std::vector<std::string> out;
     if (family == FarPass::Family::kSlices) {
         out.emplace_back("SLICES");
     }
     if (aov) {
         out.emplace_back("AOV");
+    }
+    if (block_shapes) {
+        out.emplace_back("BLOCK_SHAPES");
     }
     return out;
 }
@@ -38,8 +41,9 @@ gl::Buffer strip_indices() {
 
 } // namespace
 
-FarPass::FarPass(Family family, bool aov)
-    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"}, defines(family, aov)),
+FarPass::FarPass(Family family, bool aov, bool block_shapes)
+    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"},
+                                defines(family, aov, block_shapes)),
       strip_(strip_indices()) {
     glCreateVertexArrays(1, &strip_array_);
     glVertexArrayElementBuffer(strip_array_, strip_.id());
@@ -55,6 +59,9 @@ void FarPass::draw_level(std::size_t k, const Inputs& inputs) const {
     const auto instances = static_cast<GLsizei>(inputs.instances[k].size());
     const FarTextures::Level& level = inputs.textures.levels()[k];
     instances_[k].bind_storage(BIND_FAR_INSTANCES);
+    if (inputs.textures.block_shapes()) {
+        (family_ == Family::kShells ? level.layers_shape : level.slices_shape).bind(TEX_FAR_SHAPES);
+    }
     if (family_ == Family::kShells) {
         level.layers.bind(TEX_FAR_IMAGES);
         inputs.mesh.draw(instances);

@@ -17,7 +17,8 @@ namespace sward::shells {
 class FarPass {
 public:
     enum class Family { kShells, kSlices };
-    FarPass(Family family, bool aov);
+    /// `block_shapes`: as FarTextures says of the set that will be drawn.
+    FarPass(Family family, bool aov, bool block_shapes);
     ~FarPass();
     FarPass(const FarPass&) = delete;
     FarPass& operator=(const FarPass&) = delete;

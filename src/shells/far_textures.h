@@ -13,15 +13,18 @@ class FarTextures {
 public:
     struct Level {
         gl::Texture layers, slices;
+        gl::Texture layers_shape, slices_shape; ///< BC5, where the set has them: `layers` and `slices` are ids alone then
         int layer_count = 0;
         int slice_count = 0;
     };
     /// Throws Error(kOverLimit) when an array has more layers than the GPU takes.
     explicit FarTextures(const grass::GrassSet& set);
     [[nodiscard]] const std::vector<Level>& levels() const { return levels_; }
+    [[nodiscard]] bool block_shapes() const { return block_shapes_; }
 
 private:
     std::vector<Level> levels_;
+    bool block_shapes_ = false;
 };
 
 } // namespace sward::shells

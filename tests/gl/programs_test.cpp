@@ -55,6 +55,8 @@ std::vector<Variant> variants() {
     all.push_back({{"wind/ambient_force.comp"}, {"PERIODIC"}});
     all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES"}});
     all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV"}});
+    all.push_back({{"shells/far.vert", "shells/far.frag"}, {"BLOCK_SHAPES"}});
+    all.push_back({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV", "BLOCK_SHAPES"}});
     return all;
 }
 
@@ -179,6 +181,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"clip_surface", TEX_CLIP_SURFACE},
                                                 {"heights", TEX_CLIP_HEIGHT},
                                                 {"far_images", TEX_FAR_IMAGES},
+                                                {"far_shapes", TEX_FAR_SHAPES},
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},

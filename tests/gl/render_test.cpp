@@ -8,6 +8,7 @@
 #include "gl/fixture.h"
 #include "gl/framebuffer.h"
 #include "gl/memory.h"
+#include "grass/bc5.h"
 #include "render/renderer.h"
 #include "render/screen_passes.h"
 #include "shared/tone.h"
@@ -139,6 +140,60 @@ TEST_F(Render, DepthOfFlatGroundIsTheClosedForm) {
                 << y;
         }
     }
+}
+
+/// Mean difference of two pictures, of 255.
+double picture_difference(const scene::Picture& a, const scene::Picture& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgb.size(); ++i) {
+        sum += std::abs(int{a.rgb[i]} - int{b.rgb[i]});
+    }
+    return sum / static_cast<double>(a.rgb.size());
+}
+
+/// The far tier alone, of a small world with this set.
+scene::Picture far_picture(const grass::GrassSet& set) {
+    render::World world = small_world();
+    world.grass = set;
+    Renderer renderer(std::move(world));
+    scene::Pose pose;
+    pose.position = {20, 1.5, 30};
+    pose.pitch_deg = -20;
+    pose = renderer.above_datum(pose);
+    FrameSettings settings = small_frame();
+    settings.tiers = Tiers::kShells;
+    renderer.draw({pose, pose, 3.5, 0}, settings);
+    return renderer.read_picture();
+}
+
+TEST_F(Render, BlockShapesDrawWhatTheirTexelsDecodeTo) {
+    grass::GrassSet set = synthetic_set();
+    for (grass::FarLevel& level : set.levels) {
+        for (auto& [planes, shapes] : {std::pair{&level.layers, &level.layers_shape},
+                                       std::pair{&level.slices, &level.slices_shape}}) {
+            *shapes = grass::empty_shapes(*planes);
+            for (int i = 0; i < planes->layers / shared::kPlanes; ++i) {
+                grass::compress_shape(*planes, i, *shapes); // the planes become what the blocks decode to
+            }
+        }
+    }
+    const scene::Picture blocks = far_picture(set);
+    grass::GrassSet wrong = set;
+    for (grass::FarLevel& level : wrong.levels) {
+        for (grass::TextureArray* shapes : {&level.layers_shape, &level.slices_shape}) {
+            for (auto& mip : shapes->mips) {
+                std::fill(mip.begin(), mip.end(), std::uint8_t{0});
+            }
+        }
+    }
+    const scene::Picture broken = far_picture(wrong);
+    for (grass::FarLevel& level : set.levels) {
+        level.layers_shape = level.slices_shape = {};
+    }
+    const scene::Picture planes = far_picture(set);
+    // The palette is finer than 8 bits: some texels change by a step.
+    EXPECT_LT(picture_difference(blocks, planes), 0.2);
+    EXPECT_GT(picture_difference(broken, planes), 2);
 }
 
 TEST_F(Render, StatsNameEveryPassAndCount) {

@@ -17,6 +17,7 @@
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 #include "grass_fixture.h"
+#include "texgen/check_nan.h"
 
 namespace sward::texgen {
 namespace {
@@ -259,6 +260,62 @@ TEST(GrassSet, SameSeedSameBytesAtAnyThreadCountAndReadsBackEqual) {
     EXPECT_EQ(std::memcmp(read.blades.data(), made.blades.data(),
                           made.blades.size() * sizeof(BladeRecord)),
               0);
+}
+
+TEST(GrassSet, BlockCompressedReadsBackAsItsTexelsDecode) {
+    base::set_verbosity(base::Verbosity::kQuiet);
+    const Folder folder;
+    Preset preset = small_meadow();
+    preset.size = 128;
+    const BakeOptions options{.volume = false, .preview = false, .block = true, .check_nan = true};
+    const grass::GrassSet made = bake_set(preset, options);
+    const fs::path path = folder.path() / "set";
+    write_set(made, preset, path, options);
+    const grass::GrassSet read = grass::read_grass_set(path);
+    ASSERT_EQ(read.levels.size(), made.levels.size());
+    for (std::size_t k = 0; k < read.levels.size(); ++k) {
+        EXPECT_EQ(read.levels[k].layers.mips, made.levels[k].layers.mips);
+        EXPECT_EQ(read.levels[k].slices.mips, made.levels[k].slices.mips);
+        EXPECT_EQ(read.levels[k].layers_shape.mips, made.levels[k].layers_shape.mips);
+        EXPECT_EQ(read.levels[k].slices_shape.mips, made.levels[k].slices_shape.mips);
+        EXPECT_FALSE(read.levels[k].layers_shape.mips.empty());
+    }
+    // A set that says BC5 at one level only, or whose shapes are those of another level.
+    const std::string json = base::read_text(path / grass::kSetJson, 1 << 20);
+    const std::string key = "\"layers_shape\"";
+    base::write_file_atomic(path / grass::kSetJson,
+                            std::string(json).replace(json.rfind(key), key.size(), "\"other\""));
+    EXPECT_EQ(error_of([&] { (void)grass::read_grass_set(path); }).first, ExitCode::kBadInput);
+    const auto entry = [&](const char* name) {
+        const std::size_t at = json.find("\"" + std::string(name) + "\": {");
+        return json.substr(at, json.find('}', at) - at);
+    };
+    std::string swapped = json;
+    const std::string mine = entry("layers_shape.ktx2"), others = entry("slices_shape.ktx2");
+    swapped.replace(swapped.find(mine), mine.size(),
+                    "\"layers_shape.ktx2\"" + others.substr(others.find(':')));
+    base::write_file_atomic(path / grass::kSetJson, swapped);
+    fs::copy_file(path / "slices_shape.ktx2", path / "layers_shape.ktx2",
+                  fs::copy_options::overwrite_existing);
+    const auto [code, text] = error_of([&] { (void)grass::read_grass_set(path); });
+    EXPECT_EQ(code, ExitCode::kBadInput);
+    EXPECT_NE(text.find("layers_shape.ktx2"), std::string::npos) << text;
+}
+
+TEST(GrassSet, CheckNanFindsWhatIsNotFinite) {
+    const grass::GrassSet good = small_set();
+    EXPECT_GT(check_finite(good), good.blades.size() * 16);
+    const auto refused = [&](const auto& spoil) {
+        grass::GrassSet set = good;
+        spoil(set);
+        return error_of([&] { (void)check_finite(set); }).first == ExitCode::kFailure;
+    };
+    const float nan = std::nanf(""), infinite = HUGE_VALF;
+    EXPECT_TRUE(refused([&](grass::GrassSet& set) { set.blades[5].v2.z = nan; }));
+    EXPECT_TRUE(refused([&](grass::GrassSet& set) { set.far[1].coarse_shares[0] = infinite; }));
+    EXPECT_TRUE(refused([&](grass::GrassSet& set) { set.levels[1].layer_heights[0] = nan; }));
+    EXPECT_TRUE(refused([&](grass::GrassSet& set) { set.species[0].look.tip.y = -infinite; }));
+    EXPECT_TRUE(refused([&](grass::GrassSet& set) { set.canopy_m = nan; }));
 }
 
 TEST(GrassSet, RefusesDamageBeforeParsingAndSparesOtherDirectories) {

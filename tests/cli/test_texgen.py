@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: Apache-2.0
+"""texgen as a tool: options, reports, inspect and verify, the same bytes at any number of threads."""
+import json
+import re
+import shutil
+
+import sward_cli
+from sward_cli import CliCase
+
+FAST = ("--no-preview", "--no-volume")
+PNG = b"\x89PNG\r\n\x1a\n"
+
+
+class TexgenCase(CliCase):
+    def setUp(self):
+        super().setUp()
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+
+    def texgen(self, *arguments, **options):
+        return sward_cli.run("texgen", *arguments, cwd=self.dir, **options)
+
+    def bake(self, name, *arguments):
+        result = self.texgen("tiny.toml", "-o", name, "-q", *arguments)
+        self.assert_done(result)
+        self.assertEqual(result.err, "")
+        return {path.name: path.read_bytes() for path in (self.dir / name).iterdir()}
+
+    def refuse_texgen(self, code, pieces, *arguments):
+        self.refuse(code, pieces, *arguments, program="texgen")
+
+
+class Options(TexgenCase):
+    def test_numbers(self):
+        """A value out of range is refused with the option, what was found and the range, before any work."""
+        ranges = {"--size": ("32", "2048"), "--layers": ("2", "256"), "--slices": ("2", "256"),
+                  "--variants": ("1", "16"), "--levels": ("1", "4"), "--seed": ("0", "9007199254740991"),
+                  "--threads": ("0", "1024")}
+        values = {"--size": ("0", "16385", "-1"), "--layers": ("0", "2049"), "--slices": ("0", "2049"),
+                  "--variants": ("0", "17"), "--levels": ("0", "5"), "--seed": ("-1", "9223372036854775807"),
+                  "--threads": ("-1", "1025")}
+        for option, (low, high) in ranges.items():
+            for value in values[option]:
+                with self.subTest(option=option, value=value):
+                    self.refuse_texgen(2, [option, value, low, high], "tiny.toml", "-o", "set", f"{option}={value}")
+            for value in ("", "64px", "nan", "1e3", "0x40", "99999999999999999999", "1,5"):
+                with self.subTest(option=option, value=value):
+                    self.refuse_texgen(2, [option, "expected"], "tiny.toml", "-o", "set", f"{option}={value}")
+        self.refuse_texgen(3, ["size", "100", "power of two"], "tiny.toml", "-o", "set", "--size", "100")
+
+    def test_choices(self):
+        for value in ("", "zip", "zstd:", "zstd:0", "zstd:20", "zstd:x", "bc:3", "BC"):
+            with self.subTest(value=value):
+                self.refuse_texgen(2, ["--compression", "zstd:19"], "tiny.toml", "-o", "set", "--compression", value)
+        self.refuse_texgen(2, ["--export", "jpg", "png or exr"], "tiny.toml", "-o", "set", "--export", "jpg")
+
+    def test_usage(self):
+        self.refuse_texgen(2, ["PRESET"])
+        self.refuse_texgen(2, ["--output"], "tiny.toml")
+        self.refuse_texgen(2, ["--output"], "tiny.toml", "-o", "")
+        self.refuse_texgen(2, ["--bogus"], "tiny.toml", "-o", "set", "--bogus")
+        self.refuse_texgen(2, ["--quiet", "--verbose"], "tiny.toml", "-o", "set", "-q", "-v")
+        self.refuse_texgen(2, ["preview"], "tiny.toml", "-o", "set", "--no-preview", "--preview", "p.png")
+        self.refuse_texgen(2, ["--seed"], "tiny.toml", "-o", "set", "--seed", "1", "--seed", "2")
+        self.refuse_texgen(2, ["SET"], "inspect")
+        self.refuse_texgen(2, ["SET"], "verify")
+        self.refuse_texgen(2, ["extra"], "verify", "set", "extra")
+        self.refuse_texgen(2, ["before"], "-q", "verify", "set")
+        self.refuse_texgen(5, ["no-such", "meadow"], "no-such", "-o", "set")
+
+    def test_preset_values(self):
+        """Nonsense in the preset is refused with file, line, key, value and range."""
+        cases = [("density_per_m2 = 300.0", "density_per_m2 = -1.0", 3, ["density_per_m2", "-1"]),
+                 ("density_per_m2 = 300.0", "density_per_m2 = nan", 3, ["density_per_m2", "nan"]),
+                 ("density_per_m2 = 300.0", "density_per_m2 = inf", 3, ["density_per_m2", "inf"]),
+                 ("density_per_m2 = 300.0", "density_per_m2 = 1e9", 3, ["density_per_m2", "expected", "to 1000000 "]),
+                 ("side_m = 1.0\ndensity_per_m2 = 300.0", "side_m = 64.0\ndensity_per_m2 = 1000000.0", 4,
+                  ["density_per_m2", "4096000000", "200000"]),
+                 ("size = 64", "size = 0", 3, ["texture.size", "2048"]),
+                 ("size = 64", "size = 16385", 3, ["texture.size", "16385", "2048"]),
+                 ("layers = 4", "layers = 0", 3, ["texture.layers", "256"]),
+                 ("layers = 4", "layers = 2049", 3, ["texture.layers", "2049", "256"])]
+        for old, new, code, pieces in cases:
+            with self.subTest(new=new):
+                self.assertIn(old, sward_cli.TINY_PRESET)
+                (self.dir / "bad.toml").write_text(sward_cli.TINY_PRESET.replace(old, new))
+                self.refuse_texgen(code, ["bad.toml", *pieces], "bad.toml", "-o", "set")
+                self.refuse_texgen(code, ["bad.toml", *pieces], "bad.toml", "-o", "set", "--dry-run")
+
+    def test_help_names_every_option_of_the_manual(self):
+        text = self.texgen("--help").out
+        shown = set(re.findall(r"--[a-z-]+", text))
+        manual = (sward_cli.SOURCE / "docs/texgen.md").read_text()
+        for option in shown:
+            self.assertIn(option, manual)
+
+
+class Bytes(TexgenCase):
+    def test_threads(self):
+        sets = [self.bake(f"set{i}", "--threads", threads, "--checknan")
+                for i, threads in enumerate(("1", "2", "8", "2"))]
+        self.assertGreater(len(sets[0]), 7)
+        for other in sets[1:]:
+            self.assertEqual(sorted(sets[0]), sorted(other))
+            for name, content in sets[0].items():
+                self.assertTrue(content == other[name], name)
+        changed = self.bake("seed", "--seed", "4", *FAST)
+        self.assertFalse(sets[0]["layers.ktx2"] == changed["layers.ktx2"])
+
+    def test_block_compression_at_any_thread_count(self):
+        one = self.bake("one", "--compression", "bc", "--threads", "1", *FAST)
+        two = self.bake("two", "--compression", "bc", "--threads", "2", *FAST)
+        self.assertTrue(one == two)
+        self.assertIn("layers_shape.ktx2", one)
+
+    def test_compressions_hold_the_same(self):
+        """Packing changes the files, not what is in them; bc keeps the ids' bytes."""
+        reports = {}
+        for name in ("none", "zstd", "zstd:12", "bc"):
+            self.bake(name, "--compression", name, *FAST)
+            self.assert_done(self.texgen("verify", name, "-q"))
+            reports[name] = json.loads(self.texgen("inspect", name, "--json").out)
+        sizes = {name: report["files"]["layers.ktx2"] for name, report in reports.items()}
+        self.assertEqual(sizes["none"]["unpacked_bytes"], sizes["zstd"]["unpacked_bytes"])
+        self.assertEqual(sizes["bc"]["unpacked_bytes"] * 2, sizes["zstd"]["unpacked_bytes"])
+        self.assertGreater(sizes["none"]["bytes"], sizes["none"]["unpacked_bytes"])
+        self.assertLess(sizes["zstd"]["bytes"], sizes["none"]["bytes"])
+        self.assertLess(sizes["zstd:12"]["bytes"], sizes["zstd"]["bytes"])
+        self.assertEqual(reports["none"]["gpu_bytes"], reports["zstd"]["gpu_bytes"])
+        blades = reports["bc"]["blades"] * 64
+        share = (reports["bc"]["gpu_bytes"] - blades) / (reports["zstd"]["gpu_bytes"] - blades)
+        self.assertAlmostEqual(share, 0.75, delta=0.01)
+
+
+class Reports(TexgenCase):
+    def test_bake_as_json(self):
+        result = self.texgen("tiny.toml", "-o", "set", "-q", "--json", *FAST)
+        self.assert_done(result)
+        report = json.loads(result.out)
+        self.assertEqual(report["preset"], "tiny")
+        self.assertEqual(report["blades"], 300)
+        files = {path.name: path.stat().st_size for path in (self.dir / "set").iterdir()}
+        del files["set.json"]
+        self.assertEqual({name: file["bytes"] for name, file in report["files"].items()}, files)
+        inspected = json.loads(self.texgen("inspect", "set", "--json").out)
+        for key in ("blades", "levels", "files", "gpu_bytes", "images", "canopy_m", "species", "seed"):
+            self.assertEqual(report[key], inspected[key], key)
+
+    def test_dry_run(self):
+        """It writes nothing, and what it foretells is what a bake then makes."""
+        before = sward_cli.snapshot(self.dir)
+        for extra in ((), ("--compression", "bc")):
+            with self.subTest(extra=extra):
+                result = self.texgen("tiny.toml", "-o", "set", "--dry-run", "--json", *FAST, *extra)
+                self.assert_done(result)
+                self.assertEqual(sward_cli.snapshot(self.dir), before)
+                told = json.loads(result.out)
+                made = json.loads(self.texgen("tiny.toml", "-o", "set", "-q", "--json", *FAST, *extra).out)
+                shutil.rmtree(self.dir / "set")
+                for key in ("blades", "images", "gpu_bytes", "variants"):
+                    self.assertEqual(told[key], made[key], key)
+                self.assertAlmostEqual(told["canopy_m"], made["canopy_m"], delta=1e-6)
+                self.assertEqual(told["levels"], [dict(level) for level in made["levels"]])
+                for name, file in told["files"].items():
+                    self.assertEqual(file["unpacked_bytes"],
+                                     made["files"][name].get("unpacked_bytes", made["files"][name]["bytes"]), name)
+                self.assertGreater(told["peak_bytes"], 1 << 20)
+        text = self.texgen("tiny.toml", "-o", "set", "--dry-run")
+        self.assert_done(text)
+        for piece in ("300 blades", "level 1", "layers.ktx2", "volume.vdb", "GPU", "memory"):
+            self.assertIn(piece, text.out)
+        self.refuse_texgen(5, ["nowhere"], "tiny.toml", "-o", "nowhere/set", "--dry-run")
+
+    def test_preview_elsewhere(self):
+        made = self.bake("set", "--no-volume", "--preview", "sheet.png")
+        self.assertNotIn("preview.png", made)
+        self.assertTrue((self.dir / "sheet.png").read_bytes().startswith(PNG))
+        self.refuse_texgen(5, ["--preview", "inside"], "tiny.toml", "-o", "set", "--preview", "set/p.png")
+        self.refuse_texgen(5, ["no/p.png"], "tiny.toml", "-o", "other", "--preview", "no/p.png")
+
+    def test_inspect(self):
+        self.bake("set", "--no-preview")
+        text = self.texgen("inspect", "set").out
+        for piece in ('"tiny"', "300 blades", "level 0   64 x 64", "layers_1.ktx2", "volume.vdb", "GPU"):
+            self.assertIn(piece, text)
+        array = json.loads(self.texgen("inspect", "set/slices.ktx2", "--json").out)
+        self.assertEqual((array["format"], array["width"], array["images"], array["mips"]), ("RGBA8", 64, 16, 7))
+        self.assertIn("64 x 64 texels", self.texgen("inspect", "set/layers.ktx2").out)
+        volume = json.loads(self.texgen("inspect", "set/volume.vdb", "--json").out)
+        self.assertIn("density", str(volume["grids"]))
+        self.assertGreater(volume["active_voxels"], 1000)
+        self.assertIn("density", self.texgen("inspect", "set/volume.vdb").out)
+        self.refuse_texgen(5, ["none"], "inspect", "none")
+        self.refuse_texgen(5, ["none.vdb"], "inspect", "none.vdb")
+        self.refuse_texgen(3, ["tiny.toml"], "inspect", "tiny.toml")
+        (self.dir / "text.ktx2").write_text("no texture")
+        self.refuse_texgen(3, ["text.ktx2"], "inspect", "text.ktx2")
+        (self.dir / "text.vdb").write_text("no volume")
+        self.refuse_texgen(3, ["text.vdb"], "inspect", "text.vdb")
+
+
+class Verify(TexgenCase):
+    def setUp(self):
+        super().setUp()
+        self.bake("set", "--compression", "bc")
+
+    def test_good(self):
+        result = self.texgen("verify", "set", "--json")
+        self.assert_done(result)
+        report = json.loads(result.out)
+        self.assertTrue(report["ok"])
+        self.assertEqual(report["files"], len(list((self.dir / "set").iterdir())) - 1)
+
+    def test_every_file_flipped_cut_or_gone(self):
+        for path in sorted((self.dir / "set").iterdir()):
+            if path.name == "set.json":
+                continue
+            whole = path.read_bytes()
+            flipped = bytearray(whole)
+            flipped[len(flipped) // 2] ^= 1
+            for content in (bytes(flipped), whole[:-1], whole[:100], b"", None):
+                with self.subTest(name=path.name, size=-1 if content is None else len(content)):
+                    path.unlink()
+                    if content is not None:
+                        path.write_bytes(content)
+                    self.refuse_texgen(3, [path.name, "set.json"], "verify", "set")
+                    path.write_bytes(whole)
+        self.assert_done(self.texgen("verify", "set", "-q"))
+
+    def test_volume_is_refused_by_its_hash_before_it_is_parsed(self):
+        path = self.dir / "set/volume.vdb"
+        whole = path.read_bytes()
+        for at in (0, 30, 200, len(whole) // 2):
+            bad = bytearray(whole)
+            bad[at] ^= 0x40
+            path.write_bytes(bad)
+            self.refuse_texgen(3, ["volume.vdb", "SHA-256"], "inspect", "set/volume.vdb")
+        path.write_bytes(whole[: len(whole) // 2])
+        self.refuse_texgen(3, ["volume.vdb", "size"], "inspect", "set/volume.vdb")
+
+    def test_descriptions(self):
+        path = self.dir / "set/set.json"
+        whole = path.read_text()
+        root = json.loads(whole)
+        name = "layers.ktx2"
+        away = json.loads(whole)
+        away["files"]["../tiny.toml"] = away["files"][name]
+        other = json.loads(whole)
+        del other["files"][name]
+        shares = json.loads(whole)
+        shares["far"][0]["coverage"] = 1.5
+        for text in ("", "{}", "[" * 5000, whole[: len(whole) // 2], json.dumps(dict(root, version=1)),
+                     json.dumps(dict(root, files=[])), json.dumps(away), json.dumps(other), json.dumps(shares)):
+            with self.subTest(text=text[:40]):
+                path.write_text(text)
+                self.refuse_texgen(3, ["set.json"], "verify", "set")
+        path.unlink()
+        self.refuse_texgen(3, ["set.json"], "verify", "set")
+        self.refuse_texgen(5, ["no-such"], "verify", "no-such")
+
+    def test_foreign_file_is_told(self):
+        (self.dir / "set/notes.txt").write_text("mine")
+        result = self.texgen("verify", "set")
+        self.assert_done(result)
+        self.assertIn("warning", result.err)
+        self.assertIn("notes.txt", result.err)
+
+    def test_failure_as_json(self):
+        path = self.dir / "set/blades.glb"
+        path.write_bytes(path.read_bytes()[:-4])
+        result = self.texgen("verify", "set", "--json")
+        self.assertEqual(result.code, 3)
+        report = json.loads(result.out)
+        self.assertFalse(report["ok"])
+        self.assertIn("blades.glb", report["error"])
+
+
+if __name__ == "__main__":
+    sward_cli.main()
