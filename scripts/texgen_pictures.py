@@ -34,7 +34,8 @@ DENSE = {"patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
          "texture": {"size": 128, "layers": 4, "slices": 4, "levels": 2}}
 TUFTS = dict(DENSE, patch={"side_m": 2.0, "density_per_m2": 700.0, "variants": 1})
 # A few big bushes, so that the period shows.
-SPARSE = {"patch": {"side_m": 2.0, "density_per_m2": 220.0, "variants": 1}, "blade": {"width_m": [0.012, 0.018]},
+SPARSE = {"patch": {"side_m": 2.0, "density_per_m2": 150.0, "variants": 1},
+          "blade": {"width_m": [0.012, 0.018], "length_m": [0.12, 0.20], "lean_deg": [0.0, 30.0]},
           "tufts": {"share": 1.0, "blades": [60, 300], "radius_m": [0.05, 0.25]}, "texture": DENSE["texture"]}
 HEADS = dict(FEW, element="seed_head", blade=dict(FEW["blade"], width_m=[0.016, 0.02]))
 FLAT = {"patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
@@ -78,7 +79,7 @@ def rows():
     return {
         "patch": [
             Row("patch.density_per_m2", "blades/m2", DENSE, STAND, [150.0, 1400.0, 6000.0]),
-            Row("patch.side_m", "m", SPARSE, HIGH, [1.7, 3.0, 8.0]),
+            Row("patch.side_m", "m", SPARSE, HIGH, [1.2, 3.0, 8.0]),
             Row("patch.variants", "", SPARSE, HIGH, [1, 4, 16]),
             Row("seed", "", dict(FEW), CLOSE, [1, 2, 3]),
         ],
