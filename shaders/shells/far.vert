@@ -32,6 +32,8 @@ float family_share(vec3 from_eye, vec2 slope, vec2 bend, int level) {
 #else
     sine = sine < upright ? sine : mix(upright, sine, dot(bend, bend));
 #endif
+    // A breeze leaves the shares as they were found: the spread of blades at rest is wider than its bend.
+    sine = mix(upright, sine, smoothstep(0.2, 0.6, length(bend)));
     float at = asin(clamp(sine, 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
 #ifdef SLICES

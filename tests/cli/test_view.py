@@ -180,7 +180,8 @@ class View(CliCase):
             self.wait_for(lambda: self.display.pixels() != before, child)
 
     def test_arrow_editor(self):
-        before = (self.dir / "scene.toml").read_text()
+        before = sward_cli.SCENE + "\n[wind]\ncells = 64\n"
+        self.scene(before)
         child = self.view("--camera", "0,14,0,0,-60", "--fixed-timestep", "0.1", "--samples", "1")
         self.wait_for(self.display.has_panel, child)
         window = self.display.windows()[-1]
