@@ -53,7 +53,9 @@ grass::GrassSet first_variant(const grass::GrassSet& set) {
     for (const grass::Species& species : set.species)
         patch.looks.push_back(species.look);
     grass::GrassSet out;
-    out.far = far_table(patch, set.canopy_m, 2);
+    FarTable table = far_table(blade_canopy(patch, set.canopy_m), 2);
+    out.far = std::move(table.rows);
+    out.far_light = std::move(table.light);
     return out;
 }
 
