@@ -85,9 +85,9 @@ GLint resource_count(GLuint program, GLenum interface) {
 class Programs : public GlTest {};
 
 TEST_F(Programs, PassesBuildInBothVariants) {
-    for (const bool aov : {false, true}) {
-        const render::DrawPasses passes(aov);
-    }
+    for (const bool aov : {false, true})
+        for (const bool block_shapes : {false, true})
+            const render::DrawPasses passes(aov, block_shapes);
     const blades::CullPass cull;
     const terrain::BlockSamples samples;
 }
