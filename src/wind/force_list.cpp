@@ -23,7 +23,8 @@ constexpr double kJetRadii = 4;       // length of a jet's driven core likewise
 constexpr double kArrowRate = 4;
 constexpr double kJetRate = 4;
 constexpr double kWakeRate = 1;
-constexpr double kVortexRate = 0.5;
+// Inflow draws vorticity together as fast as it flows in: the push must hold the speed against that.
+constexpr double kVortexRate = 0.5, kInflowRate = 20;
 
 glm::dvec2 heading(double yaw_deg) {
     return {std::sin(yaw_deg * kDegree), -std::cos(yaw_deg * kDegree)};
@@ -88,7 +89,7 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         break;
     case Kind::kCyclone:
         set_ring(force, shared::kForceVortex, strength, radius, source.reach_m);
-        force.push.y = static_cast<float>(kVortexRate * std::max(strength / radius, 0.5));
+        force.push.y = static_cast<float>((kVortexRate + kInflowRate * source.inflow) * std::max(strength / radius, 0.5));
         // Its sign is the turn: an inflow of 0 keeps one.
         force.push.w = static_cast<float>(std::max(source.inflow, 1e-6) * (source.clockwise ? 1 : -1));
         force.motion = glm::vec4(glm::vec2(at.velocity), 0, 0);

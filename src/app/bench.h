@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace sward::app {
+
+/// Least, middle and greatest of some measurements.
+struct Spread {
+    double min = 0, median = 0, max = 0;
+};
+[[nodiscard]] Spread spread_of(std::vector<double> samples);
+
+struct BenchRow {
+    std::string scene, variant, pass;
+    Spread ms;
+    std::uint64_t bytes = 0; ///< of GPU memory that the variant takes
+};
+
+/// A figure that must not exceed its limit.
+struct BenchCheck {
+    std::string name;
+    double value = 0, limit = 0;
+    [[nodiscard]] bool ok() const { return value <= limit; }
+};
+
+struct BenchReport {
+    std::vector<BenchRow> rows;
+    std::vector<BenchCheck> checks;
+};
+
+/// Suite `wind`: a step of the fluid at 1000 x 1000 beside the published scheme, in turns, and what divergence each leaves.
+/// Needs a current context.
+void bench_wind(BenchReport& report);
+
+} // namespace sward::app

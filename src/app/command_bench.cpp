@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/bench.h"
+#include "app/commands.h"
+#include "base/file.h"
+#include "base/log.h"
+#include "gl/context.h"
+
+namespace sward::app {
+
+Spread spread_of(std::vector<double> samples) {
+    std::sort(samples.begin(), samples.end());
+    return samples.empty() ? Spread{} : Spread{samples.front(), samples[samples.size() / 2], samples.back()};
+}
+
+void run_bench(const Options& options) {
+    if (!options.bench_json.empty())
+        base::require_writable(options.bench_json);
+    const gl::HeadlessContext context;
+    BenchReport report;
+    bench_wind(report);
+
+    using Json = nlohmann::ordered_json;
+    Json rows = Json::array(), checks = Json::array();
+    for (const BenchRow& row : report.rows) {
+        rows.push_back({{"scene", row.scene},
+                        {"variant", row.variant},
+                        {"pass", row.pass},
+                        {"ms", {{"min", row.ms.min}, {"median", row.ms.median}, {"max", row.ms.max}}},
+                        {"bytes", row.bytes}});
+        fmt::print("{:<24} {:<10} {:<8} {:9.3f} ms ({:.3f} to {:.3f})\n", row.scene, row.variant, row.pass, row.ms.median, row.ms.min, row.ms.max);
+    }
+    bool all = true;
+    for (const BenchCheck& check : report.checks) {
+        all &= check.ok();
+        checks.push_back({{"name", check.name}, {"value", check.value}, {"limit", check.limit}, {"ok", check.ok()}});
+        fmt::print("{:<44} {:9.5f}, limit {} {}\n", check.name, check.value, check.limit, check.ok() ? "ok" : "MISSED");
+    }
+    const Json json = {{"gpu", gl::context_info().renderer}, {"suite", options.bench_suite}, {"rows", rows}, {"checks", checks}};
+    if (!options.bench_json.empty())
+        base::write_file_atomic(options.bench_json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    if (!all)
+        throw base::Error(base::ExitCode::kFailure, fmt::format("bench {}: found a figure over its limit, expected none", options.bench_suite));
+}
+
+} // namespace sward::app
