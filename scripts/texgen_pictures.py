@@ -39,7 +39,7 @@ SPARSE = {"patch": {"side_m": 2.0, "density_per_m2": 150.0, "variants": 1},
           "tufts": {"share": 1.0, "blades": [60, 300], "radius_m": [0.05, 0.25]}, "texture": DENSE["texture"]}
 HEADS = dict(FEW, element="seed_head", blade=dict(FEW["blade"], width_m=[0.016, 0.02]))
 FLAT = {"patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
-        "texture": {"size": 512, "layers": 16, "slices": 16, "levels": 4}}
+        "texture": {"size": 256, "layers": 16, "slices": 16, "levels": 4}}
 
 
 @dataclass
@@ -61,6 +61,7 @@ AGAINST = View(0.42, -14, 44, yaw_deg=135, arguments=["--tiers", "blades", "--bl
 AWAY = View(0.42, -14, 44, yaw_deg=315, arguments=["--tiers", "blades", "--blades-distance", "8"])
 HIGH = View(9, -89, 40, arguments=["--tiers", "blades", "--blades-distance", "15"])
 SHELLS = View(1.0, -24, 36, arguments=["--tiers", "shells", "--force-tier", "0"])
+STEEP = View(1.3, -60, 36, arguments=SHELLS.arguments)
 FAR = View(30, -22, 30)
 
 
@@ -122,11 +123,11 @@ def rows():
             Row("light.translucency", "against the sun", DENSE, AGAINST, [0.0, 0.45, 1.0]),
         ],
         "texture": [
-            Row("texture.size", "texels", FLAT, SHELLS, [64, 256, 1024]),
-            Row("texture.layers", "flat tier alone", FLAT, SHELLS, [2, 8, 32]),
+            Row("texture.size", "texels", FLAT, SHELLS, [64, 256, 512]),
+            Row("texture.layers", "seen steeply", FLAT, STEEP, [2, 8, 32]),
             Row("texture.slices", "flat tier alone", FLAT, SHELLS, [4, 16, 48]),
             Row("texture.levels", "from 30 m", FLAT, FAR, [1, 2, 4]),
-            Row("texture.height_map", "flat tier alone", FLAT, SHELLS, ["none", "linear", "top"]),
+            Row("texture.height_map", "seen steeply", FLAT, STEEP, ["none", "linear", "top"]),
         ],
     }
 
