@@ -79,7 +79,8 @@ void Coder::code(const TexelImage& image, std::uint8_t* id, std::uint8_t* shape)
             if (texel.blade < 0)
                 continue;
             const double steps = texel.coverage * 255.0 + carry;
-            const int coverage = std::clamp(static_cast<int>(std::lround(steps)), 0, 255);
+            const bool half = texel.coverage >= 0.5f; // no rounding across what an alpha test asks
+            const int coverage = std::clamp(static_cast<int>(std::lround(steps)), half ? 128 : 0, half ? 255 : 127);
             carry = std::clamp(steps - coverage, -0.5, 0.5);
             if (coverage == 0)
                 continue;
