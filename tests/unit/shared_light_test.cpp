@@ -194,8 +194,8 @@ TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
     const auto texels = shells::canopy_table(set.far_light, light, {0, 0, 0, 0.1f});
     constexpr int last = shells::FarAppearance::kElevations - 1;
     const auto coverage = [&](int row) { return texels[static_cast<std::size_t>(row * shells::FarAppearance::kAzimuths)].a; };
-    EXPECT_EQ(coverage(0), set.far[2].coverage);
-    EXPECT_EQ(coverage(3), set.far[2].coverage); // sine 0.13 is below 10 degrees
+    EXPECT_FLOAT_EQ(coverage(0), set.far[2].coverage);
+    EXPECT_FLOAT_EQ(coverage(3), set.far[2].coverage); // sine 0.13 is below 10 degrees
     EXPECT_EQ(coverage(last), set.far[0].coverage);
     EXPECT_NEAR(coverage(16), set.far[1].coverage, 0.01f); // sine 0.696, beside 45 degrees
     for (int row = 4; row < last; ++row) {
