@@ -208,7 +208,7 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"clipmap", "block samples", "terrain", "cull blades",
+    EXPECT_EQ(names, (std::vector<std::string>{"wind", "clipmap", "block samples", "terrain", "cull blades",
                                                "draw blades", "shells", "slices", "sky", "resolve",
                                                "tone map"}));
     EXPECT_GT(stats.blades_drawn, 100u);
