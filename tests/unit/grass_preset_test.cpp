@@ -186,7 +186,8 @@ TEST_P(ShippedPreset, IsCalibratedWithinThreePoints) {
         ++rows;
         const FlatUse use{row.share_at(0), row.slice_share};
         EXPECT_NEAR(flat_coverage(set, 0, row.elevation_deg, use, 16384).coverage, row.coverage, 0.03) << row.elevation_deg;
-        if (row.elevation_deg == 45) { // shells and slices whole cover too much: there is something to calibrate
+        // Shells and slices whole cover too much: there is something to calibrate, where there is room for it (reeds: 0.98).
+        if (row.elevation_deg == 45 && row.coverage < 0.95f) {
             EXPECT_GT(flat_coverage(set, 0, 45, {1, row.slice_share}, 16384).coverage, row.coverage + 0.03);
         }
     }
