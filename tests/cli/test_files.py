@@ -137,6 +137,8 @@ class Files(CliCase):
         (self.dir / "scene.toml").write_text(SCENE)
         good = sward_cli.tiny_set()
         for path in sorted(good.iterdir()):
+            if path.name == "far.exr":
+                continue  # for tools: the renderer reads far.ktx2
             content = path.read_bytes()
             damages = {"removed": None, "empty": b"", "cut": content[:len(content) // 2],
                        "short": content[:-1], "longer": content + b"\0",
