@@ -2,18 +2,12 @@
 #include "texgen/import_field.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "base/hash.h"
-#include "shared/shading.h"
 #include "texgen/canopy.h"
-#include "texgen/far_table.h"
-#include "texgen/parallel.h"
-#include "texgen/rays.h"
 
 namespace sward::texgen {
 namespace {
@@ -21,7 +15,6 @@ namespace {
 constexpr std::size_t kIds = 65536; // a rank and a seed
 constexpr float kOpaque = 0.999f;   // a cloud's voxel lets some light through, so that powers of it exist
 constexpr double kFacingSpread = 40 * std::numbers::pi / 180; // as patch.cpp turns blades about the way they bend
-constexpr double kClear = 1e-3;     // what is left of a ray when it is given up
 
 std::uint8_t byte_of(float unit) { return static_cast<std::uint8_t>(std::clamp(static_cast<int>(unit * 256), 0, 255)); }
 
@@ -31,42 +24,6 @@ double spread(int x, int z, double a, double b) {
     const double v = x * a + z * b;
     return v - std::floor(v);
 }
-
-/// Share of what a ray still sees, strand by strand: pieces of one blade lie beside each other and add up, different
-/// blades hide each other by chance.
-class Sight {
-public:
-    /// What the voxel takes of the sight.
-    double take(std::uint32_t strand, double share) {
-        Part* part = nullptr;
-        for (Part& p : parts_)
-            if (p.strand == strand && p.sum > 0)
-                part = &p;
-        if (!part) {
-            part = &parts_[next_++ % parts_.size()];
-            gone_ *= 1 - part->sum;
-            *part = {strand, 0};
-        }
-        const double before = left();
-        part->sum = std::min(1.0, part->sum + share);
-        return before - left();
-    }
-    [[nodiscard]] double left() const {
-        double left = gone_;
-        for (const Part& p : parts_)
-            left *= 1 - p.sum;
-        return left;
-    }
-
-private:
-    struct Part {
-        std::uint32_t strand = 0;
-        double sum = 0;
-    };
-    std::array<Part, 4> parts_;
-    unsigned next_ = 0;
-    double gone_ = 1;
-};
 
 int wrap(int i, int n) {
     const int r = i % n;
@@ -223,95 +180,18 @@ double VoxelField::farthest_root() const {
     return farthest;
 }
 
-glm::vec3 VoxelField::normal(std::size_t i) const {
+glm::vec3 VoxelField::normal(std::size_t i, const glm::vec3& tangent_there) const {
     const glm::vec3 t = tangent(i);
     const float flat = std::hypot(t.x, t.z);
     // A blade bends over its flat side, give or take; the volume does not keep by how much, its blade's number does.
     const double turn = (base::hash_unit(strand(i), 0, 0) * 2 - 1) * kFacingSpread + std::numbers::pi / 2;
     const double azimuth = (flat > 1e-4f ? std::atan2(t.z, t.x) : base::hash_unit(strand(i), 1, 0) * 6.283185307) + turn;
     const glm::vec3 across(std::cos(azimuth), 0, std::sin(azimuth));
-    return glm::normalize(glm::cross(t, across));
+    return glm::normalize(glm::cross(tangent_there, across));
 }
 
 float VoxelField::seen_along(std::size_t i, const glm::vec3& direction) const {
-    return blades_ ? density(i) * std::abs(glm::dot(normal(i), direction)) : std::min(density(i), kOpaque);
-}
-
-template<typename Visit> void VoxelField::walk(glm::dvec3 origin, glm::dvec3 direction, const Visit& visit) const {
-    const double voxel = volume_.voxel_m;
-    // In voxels, from the canopy's top on; x and z go on for ever.
-    const double begin = std::max(0.0, (canopy() - origin.y) / direction.y);
-    glm::dvec3 p = (origin + begin * direction) / voxel;
-    p.y = std::min(p.y, static_cast<double>(volume_.cells.y));
-    glm::ivec3 cell(glm::floor(p));
-    cell.y = std::min(cell.y, volume_.cells.y - 1);
-    glm::ivec3 step;
-    glm::dvec3 next, delta;
-    for (int a = 0; a < 3; ++a) {
-        step[a] = direction[a] > 0 ? 1 : -1;
-        delta[a] = std::abs(direction[a]) > 1e-12 ? 1 / std::abs(direction[a]) : 1e30;
-        next[a] = std::abs(direction[a]) > 1e-12 ? (cell[a] + (step[a] > 0 ? 1 : 0) - p[a]) / direction[a] : 1e30;
-    }
-    Sight sight;
-    double clear = 1, at = 0;
-    const glm::vec3 way(direction);
-    while (cell.y >= 0 && clear > kClear) {
-        const int a = next.x < next.y ? (next.x < next.z ? 0 : 2) : next.y < next.z ? 1 : 2;
-        const std::int64_t n = index_.at(wrap(cell.x, volume_.cells.x), cell.y, wrap(cell.z, volume_.cells.z));
-        if (n >= 0) {
-            const auto i = static_cast<std::size_t>(n);
-            const double length = next[a] - at;
-            const double weight = blades_ ? sight.take(strand(i), seen_along(i, way) * length)
-                                          : clear * (1 - std::pow(1 - seen_along(i, way), length));
-            clear = blades_ ? sight.left() : clear - weight;
-            visit(i, weight, (cell.y + 0.5) * voxel);
-        }
-        at = next[a];
-        next[a] += delta[a];
-        cell[a] += step[a];
-    }
-}
-
-std::optional<GrassHit> VoxelField::meet(const SampleRay& ray, std::uint64_t number, const shared::GrassAppearance& look,
-                                         double lean) const {
-    // One of the voxels that the ray sees, each with its chance.
-    double left = base::hash_unit(12, 0, number);
-    std::optional<GrassHit> hit;
-    walk(ray.origin, ray.direction, [&](std::size_t i, double weight, double height) {
-        if (hit || (left -= weight) >= 0)
-            return;
-        const double angle = 0.5 * std::numbers::pi * lean * height / canopy(); // bend_turn
-        const glm::vec3 upright = tangent(i), turn(std::sin(angle), std::cos(angle), 0);
-        hit = GrassHit{shared::blade_albedo(look, {0.5f, 0.5f}, along(i), 0),
-                       glm::normalize(glm::vec3(upright.x, 0, upright.z) + upright.y * turn), height / canopy(), along(i), 0};
-    });
-    return hit;
-}
-
-Canopy voxel_canopy(const VoxelField& field, const shared::GrassAppearance& look) {
-    return {field.side(), field.canopy(), {look}, [&field, look](double lean) {
-                return std::vector<Caster>{[&field, look, lean](const SampleRay& ray, std::uint64_t number) {
-                    return field.meet(ray, number, look, lean);
-                }};
-            }};
-}
-
-std::vector<double> heights_seen(const VoxelField& field, int threads) {
-    constexpr std::array kViews = {75.0, 60.0, 45.0}; // where shells count beside the slices
-    constexpr std::size_t kEach = 4096;
-    std::vector<double> heights(kViews.size() * kEach, -1);
-    parallel_for(heights.size(), resolve_threads(threads), [&](std::size_t task, int) {
-        const SampleRay ray = sample_ray(static_cast<int>(task % kEach), kViews[task / kEach], field.side(), field.canopy());
-        // One of the voxels that the ray sees, each with its chance.
-        double left = base::hash_unit(11, 0, task);
-        field.walk(ray.origin, ray.direction, [&](std::size_t, double weight, double height) {
-            if (heights[task] < 0 && (left -= weight) < 0)
-                heights[task] = height;
-        });
-    });
-    std::erase_if(heights, [](double h) { return h < 0; });
-    std::ranges::sort(heights);
-    return heights;
+    return blades_ ? density(i) * std::abs(glm::dot(normal(i, tangent(i)), direction)) : std::min(density(i), kOpaque);
 }
 
 } // namespace sward::texgen

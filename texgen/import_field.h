@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -65,18 +64,13 @@ public:
     /// Farthest of any voxel from its root, metres.
     [[nodiscard]] double farthest_root() const;
 
-    /// Calls visit(voxel, weight, height in metres) for every voxel that adds to what the ray covers; weights add up to its coverage.
-    template<typename Visit> void walk(glm::dvec3 origin, glm::dvec3 direction, const Visit& visit) const;
-    /// One of the voxels that the ray covers, each with its weight as its chance; `number` draws the lot. A bent canopy's
-    /// voxels turn, but are met where they stand at rest.
-    [[nodiscard]] std::optional<GrassHit> meet(const SampleRay& ray, std::uint64_t number, const shared::GrassAppearance& look,
-                                               double lean) const;
+    /// Unit normal of a blade's piece, by its tangent and number; `tangent` may be the bent one.
+    [[nodiscard]] glm::vec3 normal(std::size_t i, const glm::vec3& tangent) const;
 
 private:
     void find_roots();
     void find_directions();
     [[nodiscard]] glm::vec3 gradient_direction(std::size_t i) const;
-    [[nodiscard]] glm::vec3 normal(std::size_t i) const;
 
     const Volume& volume_;
     VoxelIndex index_;
@@ -87,8 +81,8 @@ private:
     std::vector<std::uint16_t> tops_;          ///< highest cell of each
 };
 
-/// The voxels as far_table casts rays through them; `field` must outlive it.
-[[nodiscard]] Canopy voxel_canopy(const VoxelField& field, const shared::GrassAppearance& look);
+/// The volume as a canopy that rays can be cast through, at rest and bent. Both must outlive it.
+[[nodiscard]] Canopy volume_canopy(const VoxelField& field, const shared::GrassAppearance& look);
 
 /// Heights that rays meet, rising, for place_layers.
 [[nodiscard]] std::vector<double> heights_seen(const VoxelField& field, int threads);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <unordered_map>
 
 #include "base/hash.h"
 #include "texgen/import.h"
@@ -44,6 +43,17 @@ public:
         return gone;
     }
     [[nodiscard]] const Part& largest() const { return *std::ranges::max_element(parts_, {}, &Part::sum); }
+    /// One of them by lot, weighted by what it covers, so that thin blades are not always hidden behind wide ones.
+    [[nodiscard]] const Part& by_lot(double lot) const {
+        float left = 0;
+        for (const Part& p : parts_)
+            left += p.sum;
+        left *= static_cast<float>(lot);
+        for (const Part& p : parts_)
+            if ((left -= p.sum) < 0)
+                return p;
+        return largest();
+    }
     [[nodiscard]] const std::array<Part, kParts>& parts() const { return parts_; }
 
 private:
@@ -85,7 +95,8 @@ struct Cover {
 /// One slab, from voxels to coded mips.
 class SlabProjection {
 public:
-    SlabProjection(const VoxelField& field, const Slab& slab) : field_(field), slab_(slab), axes_(axes_of(slab.family)) {}
+    SlabProjection(const VoxelField& field, const Slab& slab, std::uint64_t salt)
+        : field_(field), slab_(slab), axes_(axes_of(slab.family)), salt_(salt) {}
 
     /// Mip 0; a texel's `blade` is an index into records().
     TexelImage draw() {
@@ -140,7 +151,7 @@ private:
             .add(strand, i, seen);
     }
 
-    /// Columns stand beside each other: a texel has the mean of those in it, and the strand that covers most.
+    /// Columns stand beside each other: a texel has the mean of those in it, and one strand of theirs.
     TexelImage spread_columns() {
         const glm::ivec3 cells = field_.volume().cells;
         const double voxel = field_.volume().voxel_m;
@@ -167,7 +178,7 @@ private:
         }
         for (std::size_t t = 0; t < tallies.size(); ++t)
             if (Texel& texel = image.texels[t]; texel.coverage > 0) {
-                const std::size_t voxel_index = tallies[t].largest().voxel;
+                const std::size_t voxel_index = tallies[t].by_lot(base::hash_unit(salt_, 1, t)).voxel;
                 texel = {std::min(texel.coverage, 1.0f), record(voxel_index), field_.along(voxel_index)};
             }
         return image;
@@ -182,21 +193,18 @@ private:
         blade.v1 = {t, 0}; // blade_tangent of a straight curve
         blade.v2 = {2.0f * t, 0};
         records_.push_back(blade);
-        const auto [known, is_new] = strand_numbers_.try_emplace(field_.strand(i), strand_count_);
-        strand_count_ += is_new;
-        strands_.push_back(known->second);
+        strands_.push_back(static_cast<std::int32_t>(field_.strand(i)));
         return static_cast<std::int32_t>(records_.size() - 1);
     }
 
     const VoxelField& field_;
     const Slab& slab_;
     Axes axes_;
+    std::uint64_t salt_;
     glm::vec3 direction_{0};
     std::vector<Column> columns_;
     std::vector<shared::BladeRecord> records_;
-    std::vector<std::int32_t> strands_; ///< of each record, numbered within the slab
-    std::unordered_map<std::uint32_t, std::int32_t> strand_numbers_;
-    std::int32_t strand_count_ = 0;
+    std::vector<std::int32_t> strands_; ///< of each record
 };
 
 TextureArray empty_array(int width, int height, int layers) {
@@ -215,7 +223,7 @@ struct Task {
     std::uint64_t salt = 0;
 
     void run(const VoxelField& field, const BakeFrame& frame) const {
-        SlabProjection projection(field, slab);
+        SlabProjection projection(field, slab, salt);
         TexelImage image = projection.draw();
         const Coder coder(frame, projection.records(), slab);
         const double ratio = alpha_ratio(image);

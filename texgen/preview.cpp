@@ -288,16 +288,21 @@ void place_mips(Sheet& sheet, const grass::GrassSet& set, const Shader& shader, 
         double covered = 0;
         const Canvas picture = top_view(set, shader, 0, 0, m, &covered);
         sheet.panel(picture, {corner.x + m * (side + kMargin), corner.y, side, side},
-                    fmt::format("mip {}: {} texels, {:.1f} %", m, picture.width, 100 * covered));
+                    fmt::format("mip {}: covers {:.1f} %", m, 100 * covered));
     }
 }
 
 std::string title(const grass::GrassSet& set) {
-    std::string words = fmt::format("{}: {} m, {} variants, {:.0f} blades/m2, canopy {}, seed {}", set.name,
-                                    set.side_m, set.variants, set.density_per_m2, readable_length(set.canopy_m), set.seed);
+    const int texels = set.levels[0].layers.width;
+    return fmt::format("{}: {} m, {} variants, {:.0f} blades/m2, canopy {}, {} texels of {}, seed {}", set.name, set.side_m,
+                       set.variants, set.density_per_m2, readable_length(set.canopy_m), texels,
+                       readable_length(static_cast<double>(set.side_m) / texels), set.seed);
+}
+
+std::string species_line(const grass::GrassSet& set) {
+    std::string words;
     for (const grass::Species& species : set.species)
-        words += fmt::format("{} {} {:.0f} %", set.species.size() > 1 || &species == &set.species.front() ? "," : "", species.name,
-                             100 * species.share);
+        words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : ", ", species.name, 100 * species.share);
     return words;
 }
 
@@ -309,10 +314,12 @@ void write_preview(const grass::GrassSet& set, const std::filesystem::path& path
     constexpr int kFull = kWidth - 2 * kMargin;
     const int side_rows = std::clamp(static_cast<int>(kFull * set.canopy_m / set.side_m), 24, kPanel);
     const int mip_side = (kFull - (kMips - 1) * kMargin) / kMips;
-    const int top = 2 * kMargin + 2 * kCaption, middle = top + kPanel + kMargin + kCaption,
+    const int top = 2 * kMargin + 3 * kCaption, middle = top + kPanel + kMargin + kCaption,
               bottom = middle + side_rows + kMargin + kCaption;
     Sheet sheet(kWidth, bottom + mip_side + kMargin);
     sheet.canvas.text(title(set), kMargin, kMargin + 2);
+    const std::string species = species_line(set); // eight long names pass the sheet's edge: smaller then
+    sheet.canvas.text(species, kMargin, kMargin + 2 + kCaption, {text_width(species, 2) < kFull ? 2 : 1});
     const double patch_scale = kPanel / static_cast<double>(set.side_m);
     sheet.panel(perspective(set, shader, threads), {kMargin, top, kPanel * 3 / 2, kPanel}, "blades in perspective");
     sheet.panel(top_view(set, shader, 0, 0), {kPanel * 3 / 2 + 2 * kMargin, top, kPanel, kPanel},

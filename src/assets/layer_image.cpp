@@ -162,6 +162,7 @@ std::vector<std::byte> encode_layer_image(const LayerImage& image, const std::fi
         spec.channelnames = image.names;
     spec.alpha_channel = image.alpha();
     spec.attribute("oiio:UnassociatedAlpha", 1); // values go out as they came in
+    spec.attribute("tiff:write_exif", 0);         // it cannot write them to memory
     if (image.format == Format::kExr) {
         spec.attribute("compression", "zip");
         spec.attribute("DateTime", ""); // else no two files are the same

@@ -53,9 +53,7 @@ grass::GrassSet first_variant(const grass::GrassSet& set) {
     for (const grass::Species& species : set.species)
         patch.looks.push_back(species.look);
     grass::GrassSet out;
-    FarTable table = far_table(blade_canopy(patch, set.canopy_m), 2);
-    out.far = std::move(table.rows);
-    out.far_light = std::move(table.light);
+    out.far = far_table(blade_canopy(patch, set.canopy_m), 2).rows;
     return out;
 }
 
@@ -102,7 +100,7 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
         if (id[4 * t] == 0)
             continue;
         ++covered;
-        const double texel = set.side_m / level.layers.width;
+        const double texel = static_cast<double>(set.side_m) / level.layers.width;
         const glm::vec2 offset = shared::decode_offset(glm::vec2(shape[4 * t + 2], shape[4 * t + 3]) / 255.0f, set.offset_range_m);
         const double x = (static_cast<double>(t % static_cast<std::size_t>(level.layers.width)) + 0.5) * texel + offset.x;
         const double z = (static_cast<double>(t / static_cast<std::size_t>(level.layers.width)) + 0.5) * texel + offset.y;
