@@ -59,13 +59,13 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     }
     {
         const StepTimer timer("far table");
-        FarTable table = far_table(blade_canopy(patch, set.canopy_m), options.threads);
+        FarTable table = far_table(blade_canopy(patch, set.canopy_m), static_cast<int>(preset.far_rays), options.threads);
         set.far = std::move(table.rows);
         set.far_light = std::move(table.light);
     }
     {
         const StepTimer timer("shares of the shells");
-        calibrate_shells(set, options.threads);
+        calibrate_shells(set, static_cast<int>(preset.far_rays), options.threads);
     }
     set.blades = std::move(patch.blades);
     set.variant_begin = std::move(patch.variant_begin);

@@ -75,7 +75,7 @@ std::string inspect_vdb(const fs::path& path, bool json) {
     const std::vector<std::byte> bytes = volume_bytes(path);
     VolumeInfo info;
     try {
-        info = inspect_volume(bytes);
+        info = inspect_volume(bytes, path);
     } catch (const base::Error&) {
         throw;
     } catch (const std::exception& problem) { // OpenVDB's own

@@ -23,7 +23,7 @@ std::vector<FileEntry> verify(const std::filesystem::path& directory) {
     for (const FileEntry& entry : entries) {
         const std::vector<std::byte> bytes = checked_file(directory, entry);
         base::log_debug(fmt::format("{}: {} bytes, SHA-256 as listed", entry.name, bytes.size()));
-        if (entry.name == grass::kVolumeFile && inspect_volume(bytes).active_voxels == 0)
+        if (entry.name == grass::kVolumeFile && inspect_volume(bytes, directory / entry.name).active_voxels == 0)
             throw base::input_error(ExitCode::kBadInput, directory / entry.name, 0, "density",
                                     "no voxel", "blades");
     }

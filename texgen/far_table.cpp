@@ -19,10 +19,10 @@ constexpr std::array kElevationsDeg = {90.0, 82.5, 75.0, 60.0, 45.0, 30.0, 20.0,
 // as much as the blades do, and the slices only fill up.
 constexpr std::array kSliceShares = {0.0, 0.03, 0.1, 0.35, 0.75, 1.0, 1.0, 1.0, 1.0, 1.0};
 static_assert(kSliceShares.size() == kElevationsDeg.size());
-constexpr int kRays = 32768;            // an elevation: a standard error of 0.3 points at most
 constexpr int kBatch = 1024;            // rays of one task
-// The light of a hit varies by 0.7 of its mean (meadow): so many leave an error of 1.5 % a view, less between views.
-constexpr int kLeaningHits = 2048, kLeaningRays = 16384;
+// Of the rays at rest, in hits and at most in rays. The light of a hit varies by 0.7 of its mean (meadow): 2048 hits leave an error of
+// 1.5 % a view, less between views.
+constexpr double kLeaningHits = 1.0 / 16, kLeaningRays = 1.0 / 2;
 constexpr double kCoverageStep = 0.008; // below it, coverage is not worth the shells' fragments
 
 grass::FarRow row_of(const ViewSums& sums, std::size_t elevation) {
@@ -61,12 +61,12 @@ std::vector<ViewSums> cast_views(const Canopy& canopy, double lean, std::vector<
 }
 
 /// Views of a leaning canopy: as many rays as it takes to meet enough of it.
-std::vector<ViewRays> leaning_views(const FarTable& table, double lean) {
+std::vector<ViewRays> leaning_views(const FarTable& table, double lean, int rays) {
     std::vector<ViewRays> views;
     for (const float azimuth : table.light.lean_azimuths_deg)
         for (const grass::FarRow& row : table.rows) {
-            const double needed = kLeaningHits / std::max<double>(row.coverage, 1e-3);
-            const int count = 2 * static_cast<int>(std::min<double>(needed, kLeaningRays) / 2);
+            const double needed = kLeaningHits * rays / std::max<double>(row.coverage, 1e-3);
+            const int count = 2 * static_cast<int>(std::min(needed, kLeaningRays * rays) / 2);
             views.push_back({row.elevation_deg, azimuth, 0, 0, count, 1, lean});
         }
     return views;
@@ -88,11 +88,11 @@ double coverage_at(const std::vector<float>& needed, float share) {
 
 } // namespace
 
-FarTable far_table(const Canopy& canopy, int threads) {
+FarTable far_table(const Canopy& canopy, int rays, int threads) {
     FarTable table;
     std::vector<ViewRays> at_rest;
     for (const double elevation : kElevationsDeg)
-        at_rest.push_back({elevation, std::nullopt, 0, 0, kRays, elevation < 40 ? 4 : 1, 0}); // low views hit often
+        at_rest.push_back({elevation, std::nullopt, 0, 0, rays, elevation < 40 ? 4 : 1, 0}); // low views hit often
     const std::vector<ViewSums> rest = cast_views(canopy, 0, at_rest, threads);
     for (std::size_t i = 0; i < rest.size(); ++i)
         table.rows.push_back(row_of(rest[i], i));
@@ -103,7 +103,7 @@ FarTable far_table(const Canopy& canopy, int threads) {
     for (std::size_t lean = 0; lean < light.leans.size(); ++lean) {
         const std::vector<ViewSums> sums =
             lean == 0 ? rest
-                      : cast_views(canopy, light.leans[lean], leaning_views(table, light.leans[lean]), threads);
+                      : cast_views(canopy, light.leans[lean], leaning_views(table, light.leans[lean], rays), threads);
         for (std::size_t a = 0; a < azimuths; ++a)
             for (std::size_t e = 0; e < rest.size(); ++e) // at rest every azimuth sees the same
                 store_view(sums[lean == 0 ? e : a * rest.size() + e], lean == 0 || a == 0 || a + 1 == azimuths,
@@ -112,12 +112,12 @@ FarTable far_table(const Canopy& canopy, int threads) {
     return table;
 }
 
-void calibrate_shells(grass::GrassSet& set, int threads) {
+void calibrate_shells(grass::GrassSet& set, int rays, int threads) {
     const std::size_t levels = set.levels.size();
     std::vector<std::vector<float>> curves(set.far.size() * levels); // row-major
     parallel_for(curves.size(), resolve_threads(threads), [&](std::size_t i, int) {
         curves[i] = shares_needed(set, static_cast<int>(i % levels),
-                                set.far[i / levels], kRays);
+                                set.far[i / levels], rays);
     });
     base::log_debug("elevation  level   rays  all shells  share  calibrated");
     std::vector<float> shares(levels, 1);

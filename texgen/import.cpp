@@ -131,10 +131,10 @@ grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, co
     const std::vector<double> seen = heights_seen(field, query.threads);
     for (int k = 0; k < query.levels; ++k)
         set.levels.push_back(project_level(field, query, k, set, seen));
-    FarTable table = far_table(volume_canopy(field, set.species.front().look), query.threads);
+    FarTable table = far_table(volume_canopy(field, set.species.front().look), query.far_rays, query.threads);
     set.far = std::move(table.rows);
     set.far_light = std::move(table.light);
-    calibrate_shells(set, query.threads);
+    calibrate_shells(set, query.far_rays, query.threads);
     return set;
 }
 

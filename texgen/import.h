@@ -5,6 +5,7 @@
 #include <string>
 
 #include "grass/grass_set.h"
+#include "texgen/preset.h"
 #include "texgen/volume.h"
 
 namespace sward::texgen {
@@ -16,6 +17,7 @@ struct ImportQuery {
     int layers = 16;     ///< at level 0, halved by every further level
     int slices = 16;     ///< an axis
     int levels = 4;
+    int far_rays = kFarRays; ///< as in a preset
     int threads = 0;
 };
 

@@ -315,6 +315,8 @@ Options parse_options(int argc, char** argv) {
     } catch (const CLI::Success& done) { // --version
         o.help = std::string(done.what()) + "\n";
         return o;
+    } catch (const CLI::ArgumentMismatch& problem) { // "--size=": CLI11 speaks of a missing N
+        throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200) + ": expected a value");
     } catch (const CLI::ParseError& problem) {
         throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
     }

@@ -262,7 +262,8 @@ void override_preset(Preset& preset, const std::string& option, const std::strin
 
 fs::path find_preset(const std::string& argument, const std::vector<fs::path>& folders) {
     std::error_code ignored;
-    if (fs::exists(argument, ignored))
+    // A directory that is named like a preset does not hide it; a path to one is refused where it is read.
+    if (fs::exists(argument, ignored) && (argument.find('/') != std::string::npos || !fs::is_directory(argument, ignored)))
         return argument;
     std::string known;
     for (const fs::path& folder : folders) {

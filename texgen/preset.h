@@ -17,6 +17,8 @@ struct Range {
     double high = 0;
 };
 
+inline constexpr int kFarRays = 32768;
+
 using Colour = std::array<double, 3>; ///< linear reflectance, Rec. 709 primaries
 
 /// A kind of plant part as a person writes it (docs/texgen.md). Defaults are the shipped meadow's grass.
@@ -74,6 +76,8 @@ struct Preset {
     std::int64_t layers = 16; ///< shells at level 0
     std::int64_t slices = 16; ///< vertical slices an axis and patch side at level 0
     std::int64_t levels = 4;  ///< each halves size, layers and slices
+
+    std::int64_t far_rays = kFarRays; ///< of a view of the far table; time grows with them, its noise falls with their root
 
     /// B1: "linear" or "top" (top-weighted): one height map a variant instead of an image a layer. "none" otherwise.
     std::string height_map = "none";

@@ -46,6 +46,7 @@ const Field kFields[] = {
     {"texture", "slices", &Preset::slices, 2, 256, "an axis"},
     {"texture", "height_map", &Preset::height_map, 1, 8, "letters: none, linear or top"},
     {"texture", "levels", &Preset::levels, 1, 4, ""},
+    {"texture", "far_rays", &Preset::far_rays, 256, 1048576, "of a view"},
 };
 
 constexpr Element kElements[] = {

@@ -106,6 +106,8 @@ std::vector<std::string> foreign_files(const fs::path& directory) {
     } catch (const base::Error&) { // none, or damaged: what looks like ours may still be replaced
     }
     std::vector<std::string> names = unlisted_files(directory, entries);
+    // A person's own file says more than a folder beside it.
+    std::ranges::stable_partition(names, [&](const std::string& name) { return fs::is_regular_file(directory / name); });
     std::erase_if(names, [](const std::string& name) {
         const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
         return texture || name.starts_with("far.") || name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;

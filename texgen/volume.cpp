@@ -175,8 +175,8 @@ Volume read_volume(const std::filesystem::path& set_directory) {
     return VdbFile(bytes, set_directory / grass::kVolumeFile).read_volume({});
 }
 
-VolumeInfo inspect_volume(const std::vector<std::byte>& bytes) {
-    const VdbFile file(bytes, grass::kVolumeFile);
+VolumeInfo inspect_volume(const std::vector<std::byte>& bytes, const std::filesystem::path& name) {
+    const VdbFile file(bytes, name);
     VolumeInfo info;
     for (const VdbGridInfo& grid : file.grids())
         info.grids.push_back(grid.name);

@@ -52,13 +52,13 @@ struct Volume {
 /// Area of a blade's surface, square metres, by the integral that the rasteriser approximates.
 [[nodiscard]] double blade_area(const grass::GrassSet& set, const shared::BladeRecord& blade);
 
-/// What a volume holds, read back.
+/// What a volume holds, read back. `name`: of the file, for messages.
 struct VolumeInfo {
     std::vector<std::string> grids;  ///< names, in file order
     std::uint64_t active_voxels = 0; ///< of `density`
     double density_sum = 0;
     double voxel_m = 0;
 };
-[[nodiscard]] VolumeInfo inspect_volume(const std::vector<std::byte>& bytes);
+[[nodiscard]] VolumeInfo inspect_volume(const std::vector<std::byte>& bytes, const std::filesystem::path& name);
 
 } // namespace sward::texgen

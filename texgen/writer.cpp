@@ -114,13 +114,13 @@ void require_set_place(const fs::path& directory) {
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file",
                                 "a directory for the set, or none yet");
     // The directory that stands there is removed: never one that holds something else, were it beside a set.
-    if (!fs::is_empty(directory, error) && !fs::is_regular_file(directory / grass::kSetJson, error))
-        throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
-                                "a directory with other files",
-                                "an earlier grass set, an empty directory, or none yet");
     if (const std::vector<std::string> foreign = foreign_files(directory); !foreign.empty())
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
                                 "a file that is not the set's: " + base::printable(foreign.front()),
+                                "an earlier grass set, an empty directory, or none yet");
+    if (!fs::is_empty(directory, error) && !fs::is_regular_file(directory / grass::kSetJson, error))
+        throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
+                                "a directory with other files",
                                 "an earlier grass set, an empty directory, or none yet");
     fs::path beside = directory; // the new set is written beside the old one
     base::require_writable(beside += ".new");

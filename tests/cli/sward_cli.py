@@ -57,6 +57,7 @@ size = 64
 layers = 4
 slices = 4
 levels = 2
+far_rays = 1024
 """
 
 SCENE = """\

@@ -128,7 +128,7 @@ class Bytes(TexgenCase):
         self.assertEqual(reports["none"]["gpu_bytes"], reports["zstd"]["gpu_bytes"])
         blades = reports["bc"]["blades"] * 64
         share = (reports["bc"]["gpu_bytes"] - blades) / (reports["zstd"]["gpu_bytes"] - blades)
-        self.assertAlmostEqual(share, 0.75, delta=0.01)
+        self.assertAlmostEqual(share, 0.75, delta=0.02) # mips under 4 x 4 texels take a whole block
 
 
 class Reports(TexgenCase):

@@ -38,6 +38,7 @@ TEST(FarTier, CalibrationLeavesTheMeadowsHeightAndCoarserLevels) {
     Preset preset = load_preset(fs::path(SWARD_SOURCE_DIR) / "texgen/presets/meadow.toml");
     preset.variants = 1;
     preset.levels = 3;
+    preset.far_rays = 16384;
     const grass::GrassSet set = bake_set(preset, {.threads = 2});
     for (const grass::FarRow& row : set.far)
         for (int level = 0; level < 3; ++level) {

@@ -23,13 +23,16 @@ inline Preset small_meadow() {
     preset.layers = 8;
     preset.slices = 8;
     preset.levels = 3;
+    preset.far_rays = 1024; // where the table itself is not the question
     return preset;
 }
 
 inline const grass::GrassSet& small_set() {
     static const grass::GrassSet set = [] {
         base::set_verbosity(base::Verbosity::kQuiet);
-        return bake_set(small_meadow(), {.threads = 2, .volume = false, .preview = false});
+        Preset preset = small_meadow();
+        preset.far_rays = kFarRays;
+        return bake_set(preset, {.threads = 2, .volume = false, .preview = false});
     }();
     return set;
 }

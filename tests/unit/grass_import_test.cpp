@@ -53,7 +53,7 @@ grass::GrassSet first_variant(const grass::GrassSet& set) {
     for (const grass::Species& species : set.species)
         patch.looks.push_back(species.look);
     grass::GrassSet out;
-    out.far = far_table(blade_canopy(patch, set.canopy_m), 2).rows;
+    out.far = far_table(blade_canopy(patch, set.canopy_m), kFarRays, 2).rows;
     return out;
 }
 
@@ -121,6 +121,7 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
 TEST(Import, TheSameBytesAtAnyThreadCount) {
     ImportQuery query = small_query();
     query.levels = 2;
+    query.far_rays = 1024;
     query.threads = 1;
     const grass::GrassSet one = import_volume(own_volume(), query, "v.vdb");
     query.threads = 3;

@@ -196,6 +196,7 @@ TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
         preset.height_map = coding;
         preset.variants = 1;
         preset.levels = 1;
+        preset.far_rays = 16384;
         base::set_verbosity(base::Verbosity::kQuiet);
         const grass::GrassSet set = bake_set(preset, {.threads = 2});
         const grass::FarLevel& level = set.levels[0];
