@@ -73,9 +73,9 @@ struct Account {
 std::uint64_t peak_of(const Account& a, const BakeOptions& options) {
     constexpr double kLibraries = 60e6;
     constexpr double kBladeBytes = 3000;  // outlines, segments in the rays' grids
-    constexpr double kPackedShare = 0.55; // packed mips and the file's bytes, against the array
+    constexpr double kPackedShare = 1.3;  // packed mips, the file's bytes and what is read back, against the array
     const double held = kLibraries + a.arrays + a.shapes + a.blades * kBladeBytes;
-    const double packing = options.compression == 0 ? 2 * a.largest : kPackedShare * a.largest;
+    const double packing = options.compression == 0 ? 3 * a.largest : kPackedShare * a.largest;
     const double volume = options.volume ? a.volume : 0;
     return static_cast<std::uint64_t>(std::max(held + a.scratch, held + packing + volume));
 }
@@ -124,7 +124,7 @@ SetReport dry_run(const Preset& preset, const BakeOptions& options) {
     if (options.volume) {
         const std::uint64_t bytes = volume_bytes(patch, preset.side_m / static_cast<double>(preset.size));
         r.files.push_back({grass::kVolumeFile, 0, bytes, ""});
-        account.volume = 6 * static_cast<double>(bytes);
+        account.volume = 30 * static_cast<double>(bytes); // the rasteriser's deposits
     }
     account.blades = static_cast<double>(r.blades);
     const auto texels = static_cast<double>(preset.size * preset.size);
