@@ -3,10 +3,11 @@
 #include "lib/wind.glsl"
 #include "shared/bend.h"
 
-// canopy_sway; x, z of where the bend turns an upright blade there.
+// canopy_sway; x, z of where the bend turns an upright blade at kLeanHeight.
 vec4 sway_at(vec3 ground, vec2 wind) {
     float canopy = frame.patch_grid.w;
     vec3 to_eye = normalize(frame.eye.xyz - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
     vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.mean.w);
-    return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun.xyz, to_eye), turn.xz);
+    vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.mean.w);
+    return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun.xyz, to_eye), lean.xz);
 }

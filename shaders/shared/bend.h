@@ -55,8 +55,9 @@ SHARED_FN vec3 bend_turn(float y, float canopy, vec2 wind, float response) {
     return vec3(side.x, cos(angle), side.y);
 }
 
-// Rest height over the canopy's of what one sees of grass, on average: where its bend stands for the canopy's.
-SHARED_CONST float kSwayHeight = 0.65f;
+// Rest heights over the canopy's: where the bend stands for the whole canopy's, to its light and to the tiers' shares of it.
+SHARED_CONST float kSwayHeight = 0.45f;
+SHARED_CONST float kLeanHeight = 0.65f;
 
 // W3 for a point at rest height y of a stem: offset (1 - lambda) T, T = F (Vx y^2, -|V| y^2, Vz y^2). As printed,
 // (1 - lambda) T + lambda P' shrinks a calm blade to lambda of its height; here P' keeps its whole weight. F, one number for the

@@ -66,7 +66,7 @@ struct DrawCommand {
 struct BlockSample {
     vec4 ground; // world y, grass density, cosine to the sun, tint
     vec4 motion; // dy/dx, dy/dz of the ground; wind x, z (m/s)
-    vec4 sway;   // canopy_sway; x, z of where the bend turns an upright blade at kSwayHeight
+    vec4 sway;   // canopy_sway; x, z of where the bend turns an upright blade at kLeanHeight
 };
 
 // A shell or a slice of one block. 32 bytes.

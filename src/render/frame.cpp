@@ -11,10 +11,10 @@ namespace sward::render {
 
 namespace {
 
-/// Where the mean wind turns an upright blade, at the height that stands for the canopy's: x, z.
+/// Where the mean wind turns an upright blade, at kLeanHeight: x, z.
 glm::vec2 mean_bend(const shared::FrameConstants& frame) {
     const float canopy = frame.patch_grid.w;
-    const glm::vec3 turn = shared::bend_turn(shared::kSwayHeight * canopy, canopy, {frame.wind.mean.x, frame.wind.mean.y}, frame.wind.mean.w);
+    const glm::vec3 turn = shared::bend_turn(shared::kLeanHeight * canopy, canopy, {frame.wind.mean.x, frame.wind.mean.y}, frame.wind.mean.w);
     return {turn.x, turn.z};
 }
 

@@ -83,6 +83,7 @@ class Result:
 
 def environment(**changes):
     """Software rendering, no display, caches of our own. A value of None removes the variable."""
+    WORK.mkdir(parents=True, exist_ok=True)  # Mesa makes one folder, not two: without this every run compiles every shader
     env = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1", EGL_PLATFORM="surfaceless",
                XDG_CACHE_HOME=str(WORK / "cache"), LC_ALL="C.UTF-8")
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):

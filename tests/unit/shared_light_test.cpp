@@ -118,7 +118,10 @@ TEST(Sway, CalmChangesNothingAndGalesStayWithinReason) {
         const vec3 turn = direction(unit(random));
         const vec2 bent = canopy_sway(look, turn, sun, to_eye);
         // The mean over the blades keeps within kSwayRange of the calm one's.
-        const float kept = bent.x * mean_sunlit(look, grey, turn, sun, to_eye) /
+        const Light light = tests::daylight(sun);
+        const float shadow = canopy_sun(light_in_sway(light, {1, bent.y}), shared::kSeenHeight, sun.y) /
+                             canopy_sun(light, shared::kSeenHeight, sun.y);
+        const float kept = bent.x * shadow * std::exp(-shared::kSwayLoss * (1 - turn.y)) * mean_sunlit(look, grey, turn, sun, to_eye) /
                            mean_sunlit(look, grey, vec3(0, 1, 0), sun, to_eye);
         EXPECT_LE(std::abs(std::log(kept)), 1.001f * shared::kSwayRange);
         farthest = std::max(farthest, std::abs(std::log(kept)));
