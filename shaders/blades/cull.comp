@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
 #include "lib/blade_place.glsl"
+#include "lib/occlusion.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
 layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
 layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
 layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = BIND_CULL_TOTAL) buffer Total { uint total; };
+layout(std430, binding = BIND_CULL_TOTAL) buffer Totals { uint totals[CULL_COUNTS]; };
 uniform int first_item;
+uniform int tests; // bits 1 << CULL_*
 
+shared uint counts[CULL_COUNTS];
 shared uint kept_bits[CULL_GROUP / 32]; // a bit a lane: or-ing commutes, so the order is the lanes' in every run
 
 // J7 frustum test on the sphere around the blade; bent blades stay within their length of the root.
@@ -19,14 +22,35 @@ bool in_view(vec3 root, float reach) {
     return clip.w > -reach && abs(clip.x) < clip.w + slack.x + reach && abs(clip.y) < clip.w + slack.y + reach;
 }
 
-bool keep(uvec2 item, uint index) {
+bool tested(uint test) { return (tests & (1 << test)) != 0; }
+
+// J7: seen along its width a blade is its fold alone. The printed inequality is the wrong way round.
+bool edge_on(vec3 root, float facing) {
+    return abs(dot(normalize(root - frame.eye.xyz), blade_width_direction(facing))) > 0.9;
+}
+
+// The test that takes a blade, or CULL_KEPT; CULL_COUNTS where there is none.
+uint verdict(uvec2 item, uint index) {
     if (index >= uint(tiles[item.x].place.z)) {
-        return false;
+        return uint(CULL_COUNTS);
     }
     BladeRecord blade = blades[index];
     vec3 root = blade_root(item.x, blade);
-    return handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) &&
-           blade.root.w < ground_surface(root.xz).density && in_view(root, blade.shape.y);
+    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) ||
+        blade.root.w >= ground_surface(root.xz).density) {
+        return uint(CULL_LEFT);
+    }
+    if (tested(CULL_FRUSTUM) && !in_view(root, blade.shape.y)) {
+        return uint(CULL_FRUSTUM);
+    }
+    if (tested(CULL_ORIENTATION) && edge_on(root, blade.shape.x)) {
+        return uint(CULL_ORIENTATION);
+    }
+    // Wherever it bends to, a blade stays within its length of its root.
+    if (tested(CULL_OCCLUSION) && occluded(root, blade.shape.y)) {
+        return uint(CULL_OCCLUSION);
+    }
+    return uint(CULL_KEPT);
 }
 
 void main() {
@@ -35,10 +59,17 @@ void main() {
     if (lane < uint(CULL_GROUP / 32)) {
         kept_bits[lane] = 0u;
     }
+    if (lane < uint(CULL_COUNTS)) {
+        counts[lane] = 0u;
+    }
     barrier();
     uvec2 item = items[uint(first_item) + group];
     uint index = item.y + lane;
-    bool kept = keep(item, index);
+    uint found = verdict(item, index);
+    bool kept = found == uint(CULL_KEPT);
+    if (found < uint(CULL_COUNTS)) {
+        atomicAdd(counts[found], 1u);
+    }
     if (kept) {
         atomicOr(kept_bits[lane / 32u], 1u << (lane % 32u));
     }
@@ -54,6 +85,8 @@ void main() {
     if (lane == uint(CULL_GROUP) - 1u) {
         uint count = before + (kept ? 1u : 0u);
         commands[group] = DrawCommand(count, 1u, first, 0u);
-        atomicAdd(total, count);
+    }
+    if (lane < uint(CULL_COUNTS) && counts[lane] > 0u) { // once a workgroup
+        atomicAdd(totals[lane], counts[lane]);
     }
 }

@@ -15,7 +15,7 @@
 #define BIND_CULL_ITEMS 2      // uvec2[]: tile, first blade of a workgroup
 #define BIND_SURVIVORS 3       // uvec2[]: survivors of each workgroup in its own segment: tile, blade
 #define BIND_DRAW_COMMANDS 4   // DrawCommand[]: one a workgroup
-#define BIND_CULL_TOTAL 5      // uint: survivors of all batches
+#define BIND_CULL_TOTAL 5      // uint[CULL_COUNTS]: survivors of all batches, and what each test took
 #define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
 #define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
 #define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
@@ -67,9 +67,11 @@
 #define TEX_RESOLVE_DEPTH 10
 #define TEX_WIND_AMBIENT 11    // RGBA32F buffer: cells of the ambient tile, previous and latest state
 #define TEX_WIND_LOCAL 12      // RGBA32F buffer: cells of the local window likewise
+#define TEX_DEPTH_PYRAMID 13   // R32F: farthest depth of the opaque scene, a level a mip
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
+#define PYRAMID_GROUP 8        // depth pyramid: 8 x 8 texels
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
 #define CLIP_GROUP 8           // clipmap update: 8 x 8 texels
 
@@ -78,6 +80,15 @@
 #define WIND_SOLVE_GROUP 256   // threads that solve the coarsest level, and that add up sums
 #define WIND_SOLVE_SIDE 64     // its greatest side; shared memory holds it
 #define WIND_TILE 16           // forces and solids are binned by tiles of so many cells a side; one workgroup each
+
+// What the cull pass counts, and the bits that switch its tests (J7).
+#define CULL_KEPT 0
+#define CULL_LEFT 1            // density, hand-over: the blade is not there, or another tier's
+#define CULL_FRUSTUM 2
+#define CULL_ORIENTATION 3
+#define CULL_DISTANCE 4
+#define CULL_OCCLUSION 5
+#define CULL_COUNTS 6
 
 // Fragment outputs.
 #define OUT_COLOR 0

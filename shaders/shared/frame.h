@@ -30,7 +30,7 @@ struct FrameConstants {
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
     vec4 shell_share[kShareSteps + 1]; // share of the shells' blades shown, by view elevation; xyzw: far level
     vec4 slice_share[kShareSteps + 1]; // x: share of the slices likewise
-    ivec4 clip_layout;             // levels of the clipmap; unused
+    ivec4 clip_layout;             // levels of the clipmap; width and height of the picture (pixels); unused
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance looks[kMaxSpecies];
     Light light;

@@ -2,6 +2,7 @@
 #include "app/parse.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -111,6 +112,21 @@ std::vector<std::string> parse_aovs(std::string_view option, std::string_view te
         names.emplace_back(part);
     }
     return names;
+}
+
+blades::CullTests parse_cull(std::string_view option, std::string_view text) {
+    blades::CullTests tests{false, false, false, false};
+    const std::array<std::pair<std::string_view, bool*>, 4> known = {
+        {{"frustum", &tests.frustum}, {"orientation", &tests.orientation}, {"distance", &tests.distance}, {"occlusion", &tests.occlusion}}};
+    if (text == "none")
+        return tests;
+    for (const std::string_view part : split(text, ',')) {
+        const auto found = std::find_if(known.begin(), known.end(), [&](const auto& test) { return test.first == part; });
+        if (found == known.end() || *found->second)
+            throw option_error(option, part, "none, or each once, of frustum,orientation,distance,occlusion");
+        *found->second = true;
+    }
+    return tests;
 }
 
 scene::Pose parse_eye(const std::string& option, const std::string& text) {

@@ -36,6 +36,8 @@ struct NumberRange {
 [[nodiscard]] FrameRange parse_frames(std::string_view option, std::string_view text);
 /// "color,depth": names the renderer knows, each once.
 [[nodiscard]] std::vector<std::string> parse_aovs(std::string_view option, std::string_view text);
+/// "none", or tests of J7, each once: "frustum,occlusion".
+[[nodiscard]] blades::CullTests parse_cull(std::string_view option, std::string_view text);
 /// "x,z", metres.
 [[nodiscard]] glm::dvec2 parse_place(std::string_view option, std::string_view text);
 /// "x,y,z" or a whole pose.

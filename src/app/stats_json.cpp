@@ -31,7 +31,13 @@ std::string stats_json(const render::FrameStats& stats, const std::string& gpu,
     json["gpu"] = gpu;
     json["size"] = {settings.width, settings.height};
     json["passes"] = std::move(passes);
-    json["blades"] = {{"considered", stats.blades_considered}, {"drawn", stats.blades_drawn}};
+    json["blades"] = {{"considered", stats.blades_considered},
+                      {"drawn", stats.blades_drawn},
+                      {"culled",
+                       {{"frustum", stats.culled_by_frustum},
+                        {"orientation", stats.culled_by_orientation},
+                        {"distance", stats.culled_by_distance},
+                        {"occlusion", stats.culled_by_occlusion}}}};
     json["fragments"] = {{"shells", stats.shell_fragments}, {"slices", stats.slice_fragments}};
     json["bytes"] = {{"gpu", stats.gpu_bytes}, {"process_peak", process_peak_bytes()}};
     return to_text(json);

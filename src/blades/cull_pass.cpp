@@ -11,7 +11,7 @@ namespace sward::blades {
 
 CullPass::CullPass()
     : program_("cull blades", {"blades/cull.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
-      commands_(kBatch * sizeof(shared::DrawCommand)), total_(sizeof(std::uint32_t)) {}
+      commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)) {}
 
 void CullPass::upload(const TileList& list, bool keep_total) {
     items_count_ = list.items.size();
@@ -24,7 +24,7 @@ void CullPass::upload(const TileList& list, bool keep_total) {
     }
 }
 
-void CullPass::execute(std::size_t batch) {
+void CullPass::execute(std::size_t batch, const CullTests& tests) {
     const std::size_t first = batch * kBatch;
     command_count_ = static_cast<int>(std::min(kBatch, items_count_ - first));
     tiles_.bind_storage(BIND_BLADE_TILES);
@@ -34,14 +34,16 @@ void CullPass::execute(std::size_t batch) {
     total_.bind_storage(BIND_CULL_TOTAL);
     program_.use();
     program_.set("first_item", static_cast<int>(first));
+    program_.set("tests", (tests.frustum ? 1 << CULL_FRUSTUM : 0) | (tests.orientation ? 1 << CULL_ORIENTATION : 0) |
+                              (tests.occlusion ? 1 << CULL_OCCLUSION : 0));
     glDispatchCompute(static_cast<GLuint>(command_count_), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-std::uint64_t CullPass::drawn() const {
-    std::uint32_t total = 0;
-    total_.read(&total, sizeof(total));
-    return total;
+std::array<std::uint32_t, CULL_COUNTS> CullPass::counts() const {
+    std::array<std::uint32_t, CULL_COUNTS> counts{};
+    total_.read(counts.data(), sizeof(counts));
+    return counts;
 }
 
 } // namespace sward::blades

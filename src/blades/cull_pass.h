@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "blades/blade_tiles.h"
+#include "blades/cull_tests.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
+#include "shared/bindings.h"
 
 namespace sward::blades {
 
@@ -22,10 +25,11 @@ public:
     /// `keep_total`: later pictures of one frame add to its count of survivors.
     void upload(const TileList& list, bool keep_total = false);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
-    /// Culls one batch; then its survivors and draw commands are ready.
-    void execute(std::size_t batch);
-    /// Survivors of all batches since the count began. Waits for the GPU.
-    [[nodiscard]] std::uint64_t drawn() const;
+    /// Culls one batch; then its survivors and draw commands are ready. Reads the depth pyramid where occlusion is tested.
+    void execute(std::size_t batch, const CullTests& tests);
+    /// By CULL_*: blades kept, and those that each test took from what the tests before it left. Of all batches since the count
+    /// began. Waits for the GPU.
+    [[nodiscard]] std::array<std::uint32_t, CULL_COUNTS> counts() const;
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
     [[nodiscard]] int command_count() const { return command_count_; }
     [[nodiscard]] const gl::Buffer& survivors() const { return survivors_; }

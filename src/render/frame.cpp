@@ -46,7 +46,7 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
     for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
         {
             const gl::PassScope pass(timers, "cull blades");
-            cull.execute(batch);
+            cull.execute(batch, settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false} : settings.cull);
         }
         const gl::PassScope pass(timers, "draw blades");
         passes(settings.aov).blades.execute(cull);
@@ -90,6 +90,10 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
         draw.terrain.execute(static_cast<int>(blocks.size()), block_mesh);
     }
     if (draws_blades(settings)) {
+        if (settings.cull.occlusion) {
+            const gl::PassScope pass(timers, "depth pyramid");
+            depth_pyramid.build(targets.scene_depth(), targets.samples());
+        }
         draw_blades(settings, shot);
     }
     if (draws_far(settings) && settings.shells) {

@@ -112,6 +112,8 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     }
     out.mode.w = set.height_coding;
     clipmap.describe(out, anchor);
+    out.clip_layout.y = settings.width;
+    out.clip_layout.z = settings.height;
     for (std::size_t i = 0; i < set.species.size(); ++i) {
         out.looks[i] = set.species[i].look;
     }

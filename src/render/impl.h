@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "blades/cull_pass.h"
+#include "blades/depth_pyramid.h"
 #include "blades/draw_pass.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
@@ -60,6 +61,7 @@ struct Renderer::Impl {
     terrain::BlockSamples block_samples;
     gl::Buffer blade_records, frame_buffer;
     blades::CullPass cull;
+    blades::DepthPyramid depth_pyramid;
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
     Targets targets;
     gl::PassTimers timers;

@@ -110,7 +110,14 @@ FrameStats Renderer::stats() {
         stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
         stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
     }
-    stats.blades_drawn = stats.blades_considered > 0 ? impl_->cull.drawn() : 0;
+    if (stats.blades_considered > 0) {
+        const auto counts = impl_->cull.counts();
+        stats.blades_drawn = counts[CULL_KEPT];
+        stats.culled_by_frustum = counts[CULL_FRUSTUM];
+        stats.culled_by_orientation = counts[CULL_ORIENTATION];
+        stats.culled_by_distance = counts[CULL_DISTANCE];
+        stats.culled_by_occlusion = counts[CULL_OCCLUSION];
+    }
     stats.gpu_bytes = gl::gpu_bytes();
     return stats;
 }
@@ -139,7 +146,7 @@ std::vector<std::string> Renderer::reload_shaders() {
             passes->reload(failures);
         }
     }
-    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
         try {
             reload(*impl_);
         } catch (const base::Error& error) {

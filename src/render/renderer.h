@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "blades/cull_tests.h"
 #include "grass/grass_set.h"
 #include "scene/heightfield.h"
 #include "scene/image.h"
@@ -31,6 +32,7 @@ struct FrameSettings {
     Tiers tiers = Tiers::kAll;
     HandoverMode handover = HandoverMode::kRank;
     bool terrain = true, blades = true, shells = true, slices = true, sky = true; ///< switches of the panel
+    blades::CullTests cull;     ///< how blades that cannot be seen are found
     int force_far_level = -1;   ///< >= 0: only this level of the far tier, at every distance (tests)
     double blades_distance_m = 200;    ///< how far --tiers blades draws geometry; cost grows with its square
     double reference_distance_m = 60;  ///< likewise for the reference
@@ -58,6 +60,7 @@ struct FrameStats {
     std::vector<PassTime> passes;  ///< in the order of frame.cpp
     std::uint64_t blades_considered = 0; ///< tested by the cull pass
     std::uint64_t blades_drawn = 0;
+    std::uint64_t culled_by_frustum = 0, culled_by_orientation = 0, culled_by_distance = 0, culled_by_occlusion = 0;
     std::uint64_t shell_fragments = 0;   ///< that passed every test and were written
     std::uint64_t slice_fragments = 0;
     std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive

@@ -24,6 +24,7 @@ public:
     /// Samples a pixel has: the GPU may give more than were asked for.
     [[nodiscard]] int samples() const { return real_samples_; }
     [[nodiscard]] bool aov() const { return aov_; }
+    [[nodiscard]] const gl::Texture& scene_depth() const { return scene_depth_; }
     [[nodiscard]] const gl::Framebuffer& display() const { return display_; }
     [[nodiscard]] const gl::Texture& picture() const { return picture_; }
     /// rgb radiance and coverage, averaged over samples and jittered frames.

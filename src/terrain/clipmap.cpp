@@ -104,7 +104,7 @@ void Clipmap::bind() const {
 }
 
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
-    frame.clip_layout = {levels(), 0, 0, 0};
+    frame.clip_layout.x = levels();
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.

@@ -33,7 +33,7 @@ public:
     /// Brings every level's window around the eye (world metres); recomputes the levels that moved.
     void update(glm::dvec2 eye);
     void bind() const;
-    /// Fills clip and clip_layout of the frame constants for an anchor (world metres).
+    /// Fills clip and clip_layout.x of the frame constants for an anchor (world metres).
     void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
 
     [[nodiscard]] int levels() const { return static_cast<int>(windows_.size()); }

@@ -40,7 +40,7 @@ class Options(CliCase):
 
     def test_choices_and_poses(self):
         self.scene()
-        cases = [("--tiers", "most"), ("--handover", "soft"), ("--samples", "3"), ("--camera", "raod"),
+        cases = [("--tiers", "most"), ("--handover", "soft"), ("--cull", "frustum,depth"), ("--cull", "occlusion,occlusion"), ("--samples", "3"), ("--camera", "raod"),
                  ("--camera", "1,2,3"), ("--camera", ""), ("--path", "rol"),
                  ("--lod-eye", "1,2"), ("--frames", "5:1"), ("--frames", "1"), ("--frames", "-1:2"),
                  ("--fixed-timestep", "0")]

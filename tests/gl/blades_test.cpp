@@ -6,6 +6,7 @@
 #include <set>
 
 #include "blades/cull_pass.h"
+#include "blades/depth_pyramid.h"
 #include "gl/fixture.h"
 #include "gl/framebuffer.h"
 #include "gl/shader_source.h"
@@ -36,10 +37,10 @@ protected:
         cull_.upload(list_);
     }
     /// Survivors in the order of the draw.
-    Survivors cull() {
+    Survivors cull(const blades::CullTests& tests = {.occlusion = false}) {
         records_.bind_storage(BIND_BLADES);
         EXPECT_EQ(cull_.batches(), 1u);
-        cull_.execute(0);
+        cull_.execute(0, tests);
         Survivors out;
         places_.clear();
         const auto all =
@@ -113,7 +114,7 @@ protected:
         }
         EXPECT_GT(expected, 300);
         EXPECT_LT(static_cast<std::uint64_t>(expected), list_.considered);
-        EXPECT_EQ(cull_.drawn(), survivors.size());
+        EXPECT_EQ(cull_.counts()[CULL_KEPT], survivors.size());
     }
 };
 
@@ -161,7 +162,99 @@ TEST_F(Cull, NoDensityNoBlades) {
     world_.upload();
     select();
     EXPECT_TRUE(cull().empty());
-    EXPECT_EQ(cull_.drawn(), 0u);
+    EXPECT_EQ(cull_.counts()[CULL_KEPT], 0u);
+}
+
+TEST_F(Cull, OrientationTakesBladesEdgeOn) {
+    select();
+    const Survivors all = cull(), kept = cull({.orientation = true, .occlusion = false});
+    std::set<std::pair<unsigned, unsigned>> left;
+    for (const glm::uvec2& s : kept) {
+        left.emplace(s.x, s.y);
+    }
+    std::size_t taken = 0;
+    for (const glm::uvec2& s : all) {
+        const vec3 view = glm::normalize(root(s) - vec3(world_.frame.eye));
+        const float along = std::abs(glm::dot(view, shared::blade_width_direction(world_.set.blades[s.y].shape.x)));
+        if (std::abs(along - 0.9f) > 1e-4f) {
+            EXPECT_EQ(left.count({s.x, s.y}), along > 0.9f ? 0u : 1u);
+            taken += along > 0.9f;
+        }
+    }
+    EXPECT_GT(taken, 0.05 * static_cast<double>(all.size()));
+}
+
+// ---- occlusion
+
+gl::Texture depth_of(int width, int height, const std::vector<float>& values) {
+    gl::Texture depth(GL_DEPTH_COMPONENT32F, {width, height});
+    depth.upload(0, GL_DEPTH_COMPONENT, GL_FLOAT, values.data());
+    return depth;
+}
+
+TEST_F(Blades, PyramidHoldsTheFarthestOfItsPixels) {
+    constexpr int kWidth = 37, kHeight = 21;
+    std::vector<float> values(kWidth * kHeight);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = static_cast<float>((i * 2654435761u >> 8) % 4096) / 4096.0f;
+    }
+    blades::DepthPyramid pyramid;
+    pyramid.build(depth_of(kWidth, kHeight, values), 1);
+    const gl::TextureShape& shape = pyramid.texture().shape();
+    ASSERT_EQ(shape.width, 32);
+    ASSERT_EQ(shape.height, 16);
+    for (int level = 0; level < shape.mips; ++level) {
+        const int width = std::max(shape.width >> level, 1), height = std::max(shape.height >> level, 1), side = 2 << level;
+        std::vector<float> found(static_cast<std::size_t>(width * height));
+        glGetTextureImage(pyramid.texture().id(), level, GL_RED, GL_FLOAT, static_cast<GLsizei>(found.size() * sizeof(float)), found.data());
+        for (int y = 0; y * side < kHeight; ++y) {
+            for (int x = 0; x * side < kWidth; ++x) {
+                float least = 1;
+                for (int py = y * side; py < std::min((y + 1) * side, kHeight); ++py) {
+                    for (int px = x * side; px < std::min((x + 1) * side, kWidth); ++px) {
+                        least = std::min(least, values[static_cast<std::size_t>(py * kWidth + px)]);
+                    }
+                }
+                ASSERT_EQ(found[static_cast<std::size_t>(y * width + x)], least) << level << ": " << x << ", " << y;
+            }
+        }
+    }
+}
+
+TEST_F(Cull, WhatAWallHidesIsTakenAndNothingElse) {
+    const glm::ivec2 size(320, 180);
+    world_.frame.clip_layout.y = size.x;
+    world_.frame.clip_layout.z = size.y;
+    world_.upload();
+    select();
+    const Survivors all = cull();
+    // A wall at 4 m over the left half of the picture, nothing over the right.
+    constexpr float kWall_m = 4;
+    std::vector<float> depth(static_cast<std::size_t>(size.x * size.y), 0.0f);
+    for (std::size_t i = 0; i < depth.size(); ++i) {
+        depth[i] = static_cast<int>(i) % size.x < size.x / 2 ? shared::kNear_m / kWall_m : 0;
+    }
+    blades::DepthPyramid pyramid;
+    pyramid.build(depth_of(size.x, size.y, depth), 1);
+    std::set<std::pair<unsigned, unsigned>> left;
+    for (const glm::uvec2& s : cull({})) {
+        left.emplace(s.x, s.y);
+    }
+    int hidden = 0, taken = 0;
+    for (const glm::uvec2& s : all) {
+        const vec4 clip = world_.frame.clip_from_world * vec4(root(s), 1);
+        const float reach = world_.set.blades[s.y].shape.y;
+        const bool behind = clip.x < 0 && clip.w > kWall_m;
+        if (left.count({s.x, s.y}) == 0) {
+            ++taken;
+            EXPECT_TRUE(behind && clip.w > kWall_m + 0.9f * reach);
+        }
+        // Well behind it, and away from the rims of both.
+        hidden += behind && clip.w > kWall_m + 2 * reach && clip.x < -0.3f * clip.w && clip.x > -0.7f * clip.w && std::abs(clip.y) < 0.7f * clip.w;
+    }
+    EXPECT_GT(hidden, 20);
+    EXPECT_GE(taken, hidden);
+    EXPECT_EQ(cull_.counts()[CULL_OCCLUSION], static_cast<unsigned>(taken));
 }
 
 // ---- tessellation

@@ -25,6 +25,9 @@ std::vector<Variant> variants() {
                                 {{"terrain/clipmap_surface.comp"}, {}},
                                 {{"terrain/block_samples.comp"}, {}},
                                 {{"blades/cull.comp"}, {}},
+                                {{"blades/depth_pyramid.comp"}, {}},
+                                {{"blades/depth_pyramid.comp"}, {"FIRST"}},
+                                {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
@@ -152,7 +155,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
 
         {"Blades", BIND_BLADES},          {"Tiles", BIND_BLADE_TILES},
         {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
-        {"Commands", BIND_DRAW_COMMANDS}, {"Total", BIND_CULL_TOTAL},
+        {"Commands", BIND_DRAW_COMMANDS}, {"Totals", BIND_CULL_TOTAL},
         {"Blocks", BIND_TERRAIN_BLOCKS},  {"Instances", BIND_FAR_INSTANCES},
         {"Samples", BIND_BLOCK_SAMPLES}};
     std::set<std::string> seen;
@@ -185,6 +188,9 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
+                                                {"depth_pyramid", TEX_DEPTH_PYRAMID},
+                                                {"levels", TEX_DEPTH_PYRAMID},
+                                                {"depth", TEX_RESOLVE_DEPTH},
                                                 {"wind_ambient", TEX_WIND_AMBIENT},
                                                 {"wind_local", TEX_WIND_LOCAL},
                                                 {"scene_color", TEX_RESOLVE_COLOR},
@@ -219,6 +225,7 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         {"terrain/clipmap_height.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
         {"terrain/clipmap_surface.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
         {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
+        {"blades/depth_pyramid.comp", {PYRAMID_GROUP, PYRAMID_GROUP, 1}},
         {"blades/cull.comp", {CULL_GROUP, 1, 1}}};
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);

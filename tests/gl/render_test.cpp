@@ -50,6 +50,26 @@ protected:
     }
 };
 
+TEST_F(Render, OcclusionChangesNoPixel) {
+    Renderer renderer(small_world());
+    FrameSettings settings = small_frame();
+    settings.tiers = Tiers::kBlades;
+    settings.blades_distance_m = 40;
+    std::uint64_t taken = 0;
+    for (const double yaw : {0.0, 90.0, 180.0, 270.0}) {
+        render::View view = view_from(renderer, {20, 0.6, 30}, 3);
+        view.pose.yaw_deg = view.lod_pose.yaw_deg = yaw;
+        settings.cull.occlusion = false;
+        renderer.draw(view, settings);
+        const scene::Picture without = renderer.read_picture();
+        settings.cull.occlusion = true;
+        renderer.draw(view, settings);
+        EXPECT_EQ(renderer.read_picture().rgb, without.rgb) << yaw;
+        taken += renderer.stats().culled_by_occlusion;
+    }
+    EXPECT_GT(taken, 100u); // the hills hide some
+}
+
 TEST_F(Render, AovsHoldEveryTierAndAreFinite) {
     Renderer renderer(small_world());
     FrameSettings settings = small_frame();
@@ -208,7 +228,7 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"wind", "clipmap", "block samples", "terrain", "cull blades",
+    EXPECT_EQ(names, (std::vector<std::string>{"wind", "clipmap", "block samples", "terrain", "depth pyramid", "cull blades",
                                                "draw blades", "shells", "slices", "sky", "resolve",
                                                "tone map"}));
     EXPECT_GT(stats.blades_drawn, 100u);
@@ -222,7 +242,7 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
     renderer.draw(view, bare);
     const auto fewer = renderer.stats();
     EXPECT_EQ(fewer.blades_drawn + fewer.blades_considered + fewer.shell_fragments, 0u);
-    EXPECT_EQ(fewer.passes.size(), names.size() - 3);
+    EXPECT_EQ(fewer.passes.size(), names.size() - 4);
 }
 
 TEST_F(Render, TiersDrawWhatTheirNamesSay) {
