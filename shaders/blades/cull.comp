@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
+// SURFACE: an item is a cluster of a mesh's blades: the end of its run, its first blade.
+#include "lib/frame.glsl" // here: a file is expanded once, in whichever branch names it first
+#ifdef SURFACE
+#include "lib/surface_place.glsl"
+#else
 #include "lib/blade_place.glsl"
+#endif
 
 layout(local_size_x = CULL_GROUP) in;
 layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
@@ -19,6 +25,11 @@ bool in_view(vec3 root, float reach) {
     return clip.w > -reach && abs(clip.x) < clip.w + slack.x + reach && abs(clip.y) < clip.w + slack.y + reach;
 }
 
+#ifdef SURFACE
+bool keep(uvec2 item, uint index) {
+    return index < item.x && in_view(surface_root(surface_blades[index]), surface_blades[index].v1_height.w);
+}
+#else
 bool keep(uvec2 item, uint index) {
     if (index >= uint(tiles[item.x].place.z)) {
         return false;
@@ -28,6 +39,7 @@ bool keep(uvec2 item, uint index) {
     return handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) &&
            blade.root.w < ground_surface(root.xz).density && in_view(root, blade.shape.y);
 }
+#endif
 
 void main() {
     uint group = gl_WorkGroupID.x;

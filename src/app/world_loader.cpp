@@ -23,9 +23,14 @@ scene::Scene load_scene(const Options& options) {
 
 std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     std::map<fs::path, scene::Mesh> meshes;
+    const auto add = [&](const fs::path& mesh) {
+        if (!mesh.empty() && !meshes.contains(mesh))
+            meshes.emplace(mesh, load_mesh(mesh));
+    };
     for (const scene::WindObstacle& obstacle : scene.wind.obstacles)
-        if (!obstacle.mesh.empty() && !meshes.contains(obstacle.mesh))
-            meshes.emplace(obstacle.mesh, load_mesh(obstacle.mesh));
+        add(obstacle.mesh);
+    for (const scene::ObjectSpec& object : scene.objects)
+        add(object.mesh);
     return meshes;
 }
 
@@ -33,13 +38,14 @@ render::World load_world(const scene::Scene& scene) {
     // Quick to refuse first: a bake may take minutes.
     render::World world;
     world.scene = scene;
-    if (scene.terrain.elevation.empty())
-        throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "terrain.surface", "a mesh alone",
-                                "terrain.elevation (grass on meshes is not built yet)");
+    world.meshes = load_meshes(scene);
+    if (!scene.terrain.surface.empty()) {
+        world.surface = load_mesh(scene.terrain.surface); // its grass is placed, not baked
+        return world;
+    }
     world.elevation = load_elevation(scene.terrain);
     if (!scene.terrain.mask.empty())
         world.mask = load_mask(scene.terrain);
-    world.meshes = load_meshes(scene);
     world.grass = load_grass(scene);
     return world;
 }

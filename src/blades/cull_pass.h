@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "blades/blade_tiles.h"
 #include "gl/buffer.h"
@@ -18,7 +20,8 @@ public:
     /// Workgroups a batch; a long list is culled and drawn batch by batch, which bounds memory to 2 MiB * kBatch / 2048.
     static constexpr std::size_t kBatch = 2048;
 
-    CullPass();
+    /// `defines`: SURFACE for the blades of a mesh.
+    explicit CullPass(std::vector<std::string> defines = {});
     /// `keep_total`: later pictures of one frame add to its count of survivors.
     void upload(const TileList& list, bool keep_total = false);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
@@ -29,6 +32,7 @@ public:
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
     [[nodiscard]] int command_count() const { return command_count_; }
     [[nodiscard]] const gl::Buffer& survivors() const { return survivors_; }
+    [[nodiscard]] const gl::Program& program() const { return program_; }
     void reload() { program_.reload(); }
 
 private:
