@@ -34,6 +34,16 @@ class Mesh:
         self.quad((x1, y0, z1), (x1, y0, z0), (x1, y1, z0), (x1, y1, z1))
         self.quad((x0, y0, z0), (x0, y0, z1), (x0, y1, z1), (x0, y1, z0))
 
+    def beam(self, a, b, half):
+        """A square bar from a to b, upright across."""
+        up, side = (0, half, 0), (half, 0, 0)
+        ends = [[tuple(p[k] + i * side[k] + j * up[k] for k in range(3)) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))] for p in (a, b)]
+        for n in range(4):
+            m = (n + 1) % 4
+            self.quad(ends[0][n], ends[1][n], ends[1][m], ends[0][m])
+        self.quad(*ends[0])
+        self.quad(*ends[1][::-1])
+
     def normals(self):
         sums = [[0.0, 0.0, 0.0] for _ in self.vertices]
         for t in self.triangles:
@@ -109,7 +119,7 @@ def moebius():
             y = across * math.sin(twist) + over * math.cos(twist)
             # Stood on edge and leaned back, so that its hole is seen.
             x, z = r * out[0], r * out[1]
-            lean = math.radians(38)
+            lean = math.radians(58)
             mesh.vertices.append((x, 5.2 + y * math.cos(lean) + z * math.sin(lean), z * math.cos(lean) - y * math.sin(lean)))
 
     def at(i, j):
@@ -365,12 +375,12 @@ def joinery():
     for x in (-2.1, 2.1):
         mesh.box((x - 0.5, 0.65, z - 0.05), (x + 0.5, 1.55, z + 0.04))
     mesh.box((HALF_LONG - 0.04, 0.7, -0.5), (HALF_LONG + 0.05, 1.7, 0.5))
-    for x in (-4.1, 4.1):
-        for side in (-1, 1):  # barge boards
-            for n in range(14):
-                y0, z0 = roof_section(n / 14)
-                y1, z1 = roof_section((n + 1) / 14)
-                mesh.box((x - 0.05, min(y0, y1) - 0.36, min(side * z0, side * z1)), (x + 0.05, max(y0, y1) - 0.28, max(side * z0, side * z1)))
+    for i in range(-5, 6):  # rafters under the eaves
+        x = 0.78 * i
+        for side in (-1, 1):
+            y0, z0 = roof_section(0.72)
+            y1, z1 = roof_section(0.94)
+            mesh.beam((x, y0 - 0.42, side * z0), (x, y1 - 0.36, side * z1), 0.06)
     return mesh
 
 

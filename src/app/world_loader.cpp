@@ -4,6 +4,7 @@
 #include "app/io.h"
 #include "app/paths.h"
 #include "app/set_cache.h"
+#include "app/sphere_cache.h"
 #include "base/error.h"
 
 namespace sward::app {
@@ -39,6 +40,7 @@ render::World load_world(const scene::Scene& scene) {
     render::World world;
     world.scene = scene;
     world.meshes = load_meshes(scene);
+    world.spheres = load_spheres(scene, world.meshes);
     if (!scene.terrain.surface.empty()) {
         world.surface = load_mesh(scene.terrain.surface); // its grass is placed, not baked
         return world;

@@ -62,6 +62,7 @@ std::size_t checked_count(double area_m2, const scene::SurfaceGrassSpec& spec, c
 struct Root {
     SurfacePoint at;
     glm::dvec3 up;
+    glm::dvec3 to_middle{0}; ///< of its tuft (m)
 };
 
 /// Blades of tufts: as many each, but for the remainder, walked out from their centres along the surface; denser towards the middle.
@@ -79,8 +80,21 @@ void add_tufts(SurfaceArea& area, const scene::SurfaceGrassSpec& spec, std::size
         const glm::vec3 up(area.face_normal(centre.triangle));
         const glm::dvec3 way(shared::surface_width_direction(up, static_cast<float>(turn)));
         const SurfacePoint at = area.walk(centre, way, spec.tuft_radius_m * std::pow(u.y, 0.7));
-        roots.push_back({at, area.normal(at)});
+        roots.push_back({at, area.normal(at), centre.place - at.place});
     }
+}
+
+/// Turn about `up` that makes a blade's front (J4) point to or away from the middle of its tuft, as far as `gather` says; u: its own lot.
+double turn_of(const Root& root, double gather, double u) {
+    const double lot = 2 * std::numbers::pi * u;
+    if (gather == 0 || glm::length(root.to_middle) < 1e-6) {
+        return lot;
+    }
+    const glm::vec3 up(root.up), way(root.to_middle * (gather > 0 ? 1.0 : -1.0));
+    const float a = glm::dot(way, shared::surface_width_direction(up, 0));
+    const float b = glm::dot(way, shared::surface_width_direction(up, 0.5f * shared::kPi));
+    // The front, up x (cos a + sin b), is sin a - cos b.
+    return std::atan2(a, -b) + (1 - std::abs(gather)) * (lot - std::numbers::pi);
 }
 
 shared::SurfaceBlade make_blade(const Root& root, const scene::SurfaceGrassSpec& spec, std::uint64_t index) {
@@ -89,7 +103,7 @@ shared::SurfaceBlade make_blade(const Root& root, const scene::SurfaceGrassSpec&
     const auto height = static_cast<float>(glm::mix(spec.blade_height_m.x, spec.blade_height_m.y, u.x));
     const auto half_width = static_cast<float>(0.5 * glm::mix(spec.blade_width_m.x, spec.blade_width_m.y, u.y));
     const auto stiffness = static_cast<float>(glm::mix(spec.stiffness.x, spec.stiffness.y, u.z));
-    const auto turn = static_cast<float>(2 * std::numbers::pi * w.x);
+    const auto turn = static_cast<float>(turn_of(root, spec.tuft_gather, w.x));
     const glm::vec3 up(root.up);
     const glm::vec3 across = shared::surface_width_direction(up, turn);
     const float pull = static_cast<float>(spec.droop) * height / std::max(stiffness, 0.02f);

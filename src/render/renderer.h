@@ -71,6 +71,7 @@ struct World {
     grass::GrassSet grass;   ///< empty where the scene stands on a mesh
     scene::Mesh surface;     ///< terrain.surface; no triangles: a scene on elevation
     std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles and objects name, under its names
+    std::map<std::filesystem::path, scene::SphereSet> spheres; ///< the meshes of objects that grass feels, packed; under the same names
 };
 
 /// The library's face. Needs a current GL 4.5 core context at construction, in every call and at destruction; owns no

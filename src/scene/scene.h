@@ -69,7 +69,8 @@ struct ObjectSpec {
     double yaw_deg = 0;
     std::string path; ///< name of a [path.*], or empty
     glm::dvec3 colour{0.45, 0.42, 0.38}; ///< linear reflectance
-    int most_spheres = 256; ///< that a mesh is packed with
+    bool collides = true;   ///< grass feels it
+    int most_spheres = 256; ///< that a mesh which grass feels is packed with
 };
 
 /// Overrides of the tiers' distances; unset means by projected size.

@@ -143,6 +143,7 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
     table.number("yaw_deg", object.yaw_deg, kYaw);
     table.name("path", object.path);
     read_colour(table, "colour", object.colour);
+    table.boolean("collides", object.collides);
     table.integer("most_spheres", object.most_spheres, 1, kMostSpheres);
     table.finish();
     table.require("kind");

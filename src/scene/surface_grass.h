@@ -17,6 +17,7 @@ struct SurfaceGrassSpec {
     double tuft_share = 0.5;     ///< of the blades that stand in tufts, for kMixed
     int tuft_blades = 12;        ///< blades a tuft on average
     double tuft_radius_m = 0.05; ///< about its centre, along the surface
+    double tuft_gather = 0;      ///< how the blades of a tuft lean: 1 to its middle (locks of hair), -1 outwards (tussocks), 0 any way
     double slope_deg = 180;      ///< grass stands where the surface leans at most so far from level; 180: underneath as well
     glm::dvec2 blade_height_m{0.15, 0.35};
     glm::dvec2 blade_width_m{0.004, 0.007}; ///< at the widest

@@ -43,6 +43,7 @@ void read_surface_grass(TableReader table, SurfaceGrassSpec& grass) {
     table.number("tuft_share", grass.tuft_share, kShare);
     table.integer("tuft_blades", grass.tuft_blades, 1, 1000);
     table.number("tuft_radius_m", grass.tuft_radius_m, {0, 10, "m"});
+    table.number("tuft_gather", grass.tuft_gather, {-1, 1, ""});
     table.number("slope_deg", grass.slope_deg, {0, 180, "degrees"});
     read_span(table, "blade_height_m", grass.blade_height_m, {0.001, 10, "m"});
     read_span(table, "blade_width_m", grass.blade_width_m, {0.0001, 1, "m"});

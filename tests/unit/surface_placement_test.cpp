@@ -194,6 +194,34 @@ TEST(SurfacePlacement, BladesOfTuftsStayWithTheirCentre) {
     EXPECT_GT(farthest, 0.05);
 }
 
+TEST(SurfacePlacement, TuftsGatherOrSplay) {
+    const Mesh mesh = wavy_sheet(20);
+    SurfaceGrassSpec spec = spec_of(Placement::kTufts, 400);
+    spec.tuft_blades = 20;
+    spec.droop = 0.5;
+    const SurfaceArea area(mesh, 180);
+    const auto spread = [&](double gather) { // mean of the way from tip to middle over that from root to middle
+        spec.tuft_gather = gather;
+        const SurfaceBlades grass = place_surface_grass(mesh, spec, "m.glb");
+        const std::size_t tufts = (grass.blades.size() + 10) / 20;
+        const auto centres = tuft_centres(area, tufts, 0.7 * std::sqrt(area.total_m2() / static_cast<double>(tufts)), 1);
+        double tips = 0, roots = 0;
+        for (const auto& blade : grass.blades) {
+            const glm::dvec3 root(blade.root_direction), up(blade.up_stiffness);
+            glm::dvec3 middle = centres[0].place;
+            for (const SurfacePoint& centre : centres) {
+                middle = glm::distance(centre.place, root) < glm::distance(middle, root) ? centre.place : middle;
+            }
+            const auto flat = [&](glm::dvec3 v) { return glm::length(v - up * glm::dot(v, up)); };
+            roots += flat(root - middle);
+            tips += flat(root + glm::dvec3(blade.v2_width) - middle);
+        }
+        return tips / roots;
+    };
+    EXPECT_LT(spread(1), spread(0) - 0.3);
+    EXPECT_GT(spread(-1), spread(0) + 0.3);
+}
+
 TEST(SurfacePlacement, BladesStandOnTheSurface) {
     for (const Mesh& mesh : {wavy_sheet(10), sphere(8)}) {
         const SurfaceBlades grass = place_surface_grass(mesh, spec_of(Placement::kMixed, 150), "m.glb");
