@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the meshes of terrains/moebius, terrains/fur and terrains/roof as glTF binary. Everything is made here, from formulas.
+"""Writes the meshes of terrains/moebius, terrains/fur, terrains/roof and terrains/leaves as glTF binary. Everything is made here, from formulas.
 
     make_mesh_samples.py [ROOT]      ROOT: the source tree, by default the one this file stands in
 """
@@ -330,7 +330,12 @@ def roof():
         a, b = i * wide, i * wide + wide - 1
         mesh.quad(top[a], top[a + wide], under[a + wide], under[a])
         mesh.quad(top[b], under[b], under[b + wide], top[b + wide])
-    # Walls to the roof's underside; gables.
+    return weld(mesh)
+
+
+def walls():
+    """Up to the roof's underside, with gables."""
+    mesh = Mesh()
     for side in (-1, 1):
         x = side * HALF_LONG
         for j in range(12):
@@ -401,15 +406,33 @@ def chimney():
     return mesh
 
 
+def mound():
+    """A hump of ground, 2.4 m across."""
+    mesh, n = Mesh(), 48
+    mesh.vertices.append((0.0, 0.30, 0.0))
+    for r in range(1, n + 1):
+        for i in range(n):
+            a, s = 2 * math.pi * i / n, r / n
+            x, z = 1.2 * s * math.cos(a), 1.2 * s * math.sin(a)
+            mesh.vertices.append((x, 0.30 * (1 - s * s) ** 2 + 0.012 * math.sin(9 * x + 1) * math.sin(8 * z), z))
+    for i in range(n):
+        mesh.triangles.append((0, 1 + (i + 1) % n, 1 + i))
+        for r in range(n - 1):
+            a, b = 1 + r * n + i, 1 + r * n + (i + 1) % n
+            mesh.triangles += [(a, b, a + n), (b, b + n, a + n)]
+    return mesh
+
+
 def main():
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
     terrains = root / "terrains"
     moebius().write(terrains / "moebius" / "strip.glb")
+    mound().write(terrains / "leaves" / "mound.glb")
     animal().write(terrains / "fur" / "animal.glb")
     for name, make in (("horns", horns), ("hooves", hooves), ("muzzle", muzzle), ("rock", rock)):
         make().write(terrains / "fur" / f"{name}.glb")
     roof().write(terrains / "roof" / "house.glb")
-    for name, make in (("joinery", joinery), ("panes", panes), ("chimney", chimney)):
+    for name, make in (("walls", walls), ("joinery", joinery), ("panes", panes), ("chimney", chimney)):
         make().write(terrains / "roof" / f"{name}.glb")
 
 

@@ -108,7 +108,9 @@ shared::SurfaceBlade make_blade(const Root& root, const scene::SurfaceGrassSpec&
     const glm::vec3 across = shared::surface_width_direction(up, turn);
     const float pull = static_cast<float>(spec.droop) * height / std::max(stiffness, 0.02f);
     glm::vec3 v1, v2;
-    shared::surface_settle(v1, v2, up, height, shared::surface_gravity(up, across, pull));
+    // Grown so, each by its own lot: the physics takes what it finds as the calm.
+    const glm::vec3 grown = static_cast<float>(spec.lean * 2 * w.y) * height * glm::cross(up, across);
+    shared::surface_settle(v1, v2, up, height, shared::surface_gravity(up, across, pull) + grown);
     return {glm::vec4(glm::vec3(root.at.place), turn), glm::vec4(v1, height), glm::vec4(v2, half_width), glm::vec4(up, stiffness)};
 }
 

@@ -23,6 +23,7 @@ struct SurfaceGrassSpec {
     glm::dvec2 blade_width_m{0.004, 0.007}; ///< at the widest
     glm::dvec2 stiffness{0.4, 0.8};         ///< 0 limp .. 1 stiff
     double droop = 0.25;                    ///< gravity's shift of a tip of stiffness 1 over the blade's height
+    double lean = 0.15;                     ///< shift of a tip to its front over the blade's height, on average
     BladeShape shape = BladeShape::kQuadratic;
     double tip_tau = 0.75;   ///< v where a triangle-tip begins
     int teeth = 5;           ///< of a dandelion's leaf

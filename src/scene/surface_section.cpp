@@ -49,6 +49,7 @@ void read_surface_grass(TableReader table, SurfaceGrassSpec& grass) {
     read_span(table, "blade_width_m", grass.blade_width_m, {0.0001, 1, "m"});
     read_span(table, "stiffness", grass.stiffness, {0.02, 1, ""});
     table.number("droop", grass.droop, {0, 2, ""});
+    table.number("lean", grass.lean, {0, 3, ""});
     grass.shape = static_cast<BladeShape>(read_word(table, "shape", kShapes, static_cast<int>(grass.shape)));
     table.number("tip_tau", grass.tip_tau, {0, 0.99, ""});
     table.integer("teeth", grass.teeth, 1, 12);
