@@ -71,8 +71,8 @@ scene::SphereSet packed(const fs::path& name, const scene::Mesh& mesh, const ass
     const fs::path file = sphere_cache_directory() / (key_of(mesh, settings) + ".balls");
     if (auto cached = read_cached(file))
         return std::move(*cached);
-    base::log_info(fmt::format("{}: packed with spheres on first use", base::printable(name.native(), 200)));
     scene::SphereSet set = assets::pack_spheres(mesh, settings, name);
+    base::log_info(fmt::format("{}: packed with {} spheres on first use", base::printable(name.native(), 200), set.spheres.size()));
     write_cached(file, set);
     return set;
 }
