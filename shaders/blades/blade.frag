@@ -17,5 +17,10 @@ void main() {
     }
     // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.
     vec2 inside = clamp(along, 0.0, 1.0);
-    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, sort.x, kTierGroupedBlade, int(sort.y), haze));
+#ifdef SURFACE
+    float tier = kTierSimulatedBlade;
+#else
+    float tier = kTierGroupedBlade;
+#endif
+    write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, sort.x, tier, int(sort.y), haze));
 }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a posed blade. Out: the same, with as many segments as its length in pixels deserves.
+// SURFACE: a blade of a mesh, whose shape says where its stations have to stand.
 #include "lib/frame.glsl"
+#ifdef SURFACE
+#include "shared/surface_blade.h"
+uniform vec4 surface_shape;
+#endif
 
 layout(vertices = 1) out;
 
@@ -11,6 +16,9 @@ in BladeVertex {
     vec4 sway;
     vec4 rest;
     vec4 ground;
+#ifdef SURFACE
+    vec4 across;
+#endif
 } blade_in[];
 
 out BladeControl {
@@ -20,6 +28,9 @@ out BladeControl {
     vec4 sway;
     vec4 rest;
     vec4 ground;
+#ifdef SURFACE
+    vec4 across;
+#endif
 } blade_out[];
 
 void main() {
@@ -32,9 +43,16 @@ void main() {
 
     float pixels = frame.eye.w / max(distance(blade_in[0].root.xyz, frame.eye.xyz), 0.05);
     float span = length(blade_in[0].v1.xyz) + length(blade_in[0].v2.xyz - blade_in[0].v1.xyz);
+#ifdef SURFACE
+    blade_out[gl_InvocationID].across = blade_in[0].across;
+    // Teeth are finer than the blade's curve.
+    float finer = surface_shape.x == float(kShapeDandelion) ? 3.0 : 1.0;
+    float along = surface_blade_level(ceil(finer * span * pixels / frame.pose_band.z), 24.0, surface_shape);
+#else
     // A head has a curved rim of its own.
     float least = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0 ? 8.0 : 2.0;
     float along = clamp(ceil(span * pixels / frame.pose_band.z), least, 12.0);
+#endif
     // The fold needs a middle; below a few pixels of width nobody sees it.
     float across = 2.0 * blade_in[0].v1.w * pixels > 3.0 ? 2.0 : 1.0;
     gl_TessLevelOuter[0] = along;

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a posed blade. Out: its surface (J8): quadratic outline, fold along the middle, pixel-width correction.
+// In: a posed blade. Out: its surface (J8): outline, fold along the middle, pixel-width correction. SURFACE: a blade of a mesh.
 #include "lib/frame.glsl"
 #include "shared/blade.h"
+#ifdef SURFACE
+#include "shared/surface_blade.h"
+uniform vec4 surface_shape;
+out float open_sky;
+#endif
 
 layout(quads, equal_spacing, ccw) in;
 
@@ -12,6 +17,9 @@ in BladeControl {
     vec4 sway;
     vec4 rest;
     vec4 ground;
+#ifdef SURFACE
+    vec4 across;
+#endif
 } blade_in[];
 
 out vec3 world;
@@ -25,18 +33,29 @@ out vec4 haze;
 
 void main() {
     float u = gl_TessCoord.x;
+#ifdef SURFACE
+    float level = gl_TessLevelOuter[0];
+    float v = surface_blade_station(gl_TessCoord.y, surface_shape, level);
+    vec3 t1 = blade_in[0].across.xyz;
+    open_sky = blade_in[0].sway.z;
+#else
     vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
     float v = blade_station(gl_TessCoord.y, outline);
+    vec3 t1 = blade_width_direction(blade_in[0].v2.w);
+#endif
     vec3 v1 = blade_in[0].v1.xyz;
     vec3 v2 = blade_in[0].v2.xyz;
     float half_width = blade_in[0].v1.w;
     vec3 centre = blade_in[0].root.xyz + blade_curve(v1, v2, v);
     vec3 t0 = blade_tangent(v1, v2, v);
-    vec3 t1 = blade_width_direction(blade_in[0].v2.w);
     vec3 n = normalize(cross(t0, t1));
     float pixels = 2.0 * half_width * frame.eye.w / max(distance(centre, frame.eye.xyz), 0.05);
     float phi = 1.0 - clamp((pixels - frame.handover.z) / frame.handover.w, 0.0, 1.0);
+#ifdef SURFACE
+    float t = surface_blade_outline(u, v, surface_shape, vec2(level, phi));
+#else
     float t = mix(blade_outline(u, v, outline), u, phi * phi);
+#endif
     world = centre + t1 * (half_width * (2.0 * t - 1.0));
     world += n * (half_width * (0.5 - abs(u - 0.5)) * (1.0 - v));
     tangent = t0;

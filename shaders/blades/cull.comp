@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
+// SURFACE: an item is a cluster of a mesh's blades: the end of its run, its first blade.
+#include "lib/frame.glsl" // here: a file is expanded once, in whichever branch names it first
+#ifdef SURFACE
+#include "lib/surface_place.glsl"
+#else
 #include "lib/blade_place.glsl"
+#endif
 #include "lib/occlusion.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
@@ -25,10 +31,34 @@ bool in_view(vec3 root, float reach) {
 bool tested(uint test) { return (tests & (1 << test)) != 0; }
 
 // J7: seen along its width a blade is its fold alone. The printed inequality is the wrong way round.
-bool edge_on(vec3 root, float facing) {
-    return abs(dot(normalize(root - frame.eye.xyz), blade_width_direction(facing))) > 0.9;
+bool edge_on(vec3 root, vec3 across) {
+    return abs(dot(normalize(root - frame.eye.xyz), across)) > 0.9;
 }
 
+#ifdef SURFACE
+// The test that takes a blade, or CULL_KEPT; CULL_COUNTS where there is none.
+uint verdict(uvec2 item, uint index) {
+    if (index >= item.x) {
+        return uint(CULL_COUNTS);
+    }
+    SurfaceBlade blade = surface_blades[index];
+    vec3 root = surface_root(blade);
+    float reach = blade.v1_height.w;
+    if (tested(CULL_FRUSTUM) && !in_view(root, reach)) {
+        return uint(CULL_FRUSTUM);
+    }
+    if (tested(CULL_ORIENTATION) && edge_on(root, surface_width_direction(blade.up_stiffness.xyz, blade.root_direction.w))) {
+        return uint(CULL_ORIENTATION);
+    }
+    if (surface_width_share(index, root, blade.up_stiffness.xyz) <= 0.0) {
+        return uint(CULL_DISTANCE);
+    }
+    if (tested(CULL_OCCLUSION) && occluded(root, reach)) {
+        return uint(CULL_OCCLUSION);
+    }
+    return uint(CULL_KEPT);
+}
+#else
 // The test that takes a blade, or CULL_KEPT; CULL_COUNTS where there is none.
 uint verdict(uvec2 item, uint index) {
     if (index >= uint(tiles[item.x].place.z)) {
@@ -43,7 +73,7 @@ uint verdict(uvec2 item, uint index) {
     if (tested(CULL_FRUSTUM) && !in_view(root, blade.shape.y)) {
         return uint(CULL_FRUSTUM);
     }
-    if (tested(CULL_ORIENTATION) && edge_on(root, blade.shape.x)) {
+    if (tested(CULL_ORIENTATION) && edge_on(root, blade_width_direction(blade.shape.x))) {
         return uint(CULL_ORIENTATION);
     }
     // Wherever it bends to, a blade stays within its length of its root.
@@ -52,6 +82,7 @@ uint verdict(uvec2 item, uint index) {
     }
     return uint(CULL_KEPT);
 }
+#endif
 
 void main() {
     uint group = gl_WorkGroupID.x;

@@ -4,6 +4,9 @@
 #include "lib/output.glsl"
 
 in vec2 sway; // canopy_sway at the blade
+#ifdef SURFACE
+in float open_sky; // share of the sky that a mesh's surface faces at the blade
+#endif
 
 // What a tier knows of a fragment's blade.
 struct GrassSample {
@@ -26,6 +29,10 @@ void write_grass(GrassSample s) {
     vec3 to_eye = -from_eye / distance_m;
     vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
     GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
-    vec3 radiance = shade_grass(frame.looks[s.species], light_in_sway(frame.light, sway), point, to_eye) * s.haze.a + s.haze.rgb;
+    Light light = light_in_sway(frame.light, sway);
+#ifdef SURFACE
+    light = light_under(light, open_sky);
+#endif
+    vec3 radiance = shade_grass(frame.looks[s.species], light, point, to_eye) * s.haze.a + s.haze.rgb;
     write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
 }

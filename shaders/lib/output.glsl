@@ -15,6 +15,7 @@ const float kTierGroupedBlade = 2.0;
 const float kTierShell = 3.0;
 const float kTierSliceX = 4.0;
 const float kTierSliceZ = 5.0;
+const float kTierObject = 6.0;
 const float kTierSky = 7.0;
 
 // tier_coverage_rank: tier, share of the pixel that is grass, rank of the blade.

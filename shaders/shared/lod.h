@@ -57,6 +57,24 @@ SHARED_FN float pose_share(float rank, float distance_m, vec2 band) {
     return smoothstep(0.2f * swap, max(0.92f * swap, 1e-3f), distance_m); // the band may start at 0
 }
 
+// J7's distance test, for blades that have no far tier. Share of them that stands at a distance along the surface: all at the eye, kLeastShare
+// of them from `thin_out` (m) on, 0: everywhere all. The paper's n levels without their steps.
+SHARED_CONST float kLeastShare = 0.125f;
+SHARED_FN float distance_share(float along_m, float thin_out) {
+    return thin_out > 0.0f ? max(1.0f - (1.0f - kLeastShare) * along_m / thin_out, kLeastShare) : 1.0f;
+}
+
+// Factor on a blade's width there, 0: gone. It grows thin over kThinRanks before it goes, none pops; those that stay take what the others
+// lose, so that the mean over all ranks is 1 at any share.
+SHARED_CONST float kThinRanks = 0.1f;
+SHARED_FN float distance_width(float rank, float share) {
+    float edge = share * (1.0f + kThinRanks);
+    float over = max(edge - 1.0f, 0.0f);
+    float above = kThinRanks - over;
+    float mean = over > 0.0f ? 1.0f - 0.5f * above * above / kThinRanks : edge - 0.5f * kThinRanks; // the ramp begins above rank 0
+    return clamp((edge - rank) / kThinRanks, 0.0f, 1.0f) / mean;
+}
+
 // Threshold of a pixel on a 4 x 4 ordered grid, (n + 0.5) / 16 (Bayer 1973).
 SHARED_FN float pixel_threshold(ivec2 pixel) {
     int x = pixel.x & 3;

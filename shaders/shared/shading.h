@@ -116,6 +116,16 @@ SHARED_FN Light light_in_sway(Light light, vec2 sway) {
     return here;
 }
 
+// Light on a surface that faces `open_sky` of the sky (1 level .. 0 underneath): the rest of what it sees is ground, which gives back
+// half of the sky's light.
+SHARED_FN Light light_under(Light light, float open_sky) {
+    Light here = light;
+    float share = mix(0.5f, 1.0f, open_sky);
+    here.zenith = vec4(vec3(light.zenith) * share, light.zenith.w);
+    here.horizon = vec4(vec3(light.horizon) * share, light.horizon.w);
+    return here;
+}
+
 // A point of a blade, to be shaded.
 struct GrassPoint {
     vec3 albedo;

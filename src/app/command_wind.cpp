@@ -102,6 +102,8 @@ Options with_frames(Options options) {
 wind::GroundHeight ground_of(const scene::Scene& scene) {
     auto surface = std::make_shared<std::optional<terrain::Surface>>();
     return [surface, &scene](double x, double z) {
+        if (!scene.terrain.surface.empty())
+            return 0.0; // as Renderer::ground_height
         if (!*surface)
             surface->emplace(load_elevation(scene.terrain), scene.terrain.detail_m);
         return (*surface)->height(x, z);

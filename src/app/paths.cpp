@@ -46,7 +46,9 @@ fs::path texgen_program() {
     return base::executable_directory() / "texgen";
 }
 
-fs::path set_cache_directory() {
+namespace {
+
+fs::path cache_directory() {
     fs::path cache = from_environment("XDG_CACHE_HOME");
     if (cache.empty()) {
         const fs::path home = from_environment("HOME");
@@ -56,7 +58,17 @@ fs::path set_cache_directory() {
                               "expected an absolute path in one of them");
         cache = home / ".cache";
     }
-    return cache / "sward" / "sets";
+    return cache / "sward";
+}
+
+} // namespace
+
+fs::path set_cache_directory() {
+    return cache_directory() / "sets";
+}
+
+fs::path sphere_cache_directory() {
+    return cache_directory() / "spheres";
 }
 
 } // namespace sward::app

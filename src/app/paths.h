@@ -18,5 +18,7 @@ namespace sward::app {
 /// $XDG_CACHE_HOME/sward/sets, by default ~/.cache/sward/sets. Throws Error(kIo) where there is
 /// neither.
 [[nodiscard]] std::filesystem::path set_cache_directory();
+/// Beside it: meshes packed with balls.
+[[nodiscard]] std::filesystem::path sphere_cache_directory();
 
 } // namespace sward::app

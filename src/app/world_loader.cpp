@@ -4,6 +4,7 @@
 #include "app/io.h"
 #include "app/paths.h"
 #include "app/set_cache.h"
+#include "app/sphere_cache.h"
 #include "base/error.h"
 
 namespace sward::app {
@@ -23,9 +24,14 @@ scene::Scene load_scene(const Options& options) {
 
 std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     std::map<fs::path, scene::Mesh> meshes;
+    const auto add = [&](const fs::path& mesh) {
+        if (!mesh.empty() && !meshes.contains(mesh))
+            meshes.emplace(mesh, load_mesh(mesh));
+    };
     for (const scene::WindObstacle& obstacle : scene.wind.obstacles)
-        if (!obstacle.mesh.empty() && !meshes.contains(obstacle.mesh))
-            meshes.emplace(obstacle.mesh, load_mesh(obstacle.mesh));
+        add(obstacle.mesh);
+    for (const scene::ObjectSpec& object : scene.objects)
+        add(object.mesh);
     return meshes;
 }
 
@@ -33,13 +39,15 @@ render::World load_world(const scene::Scene& scene) {
     // Quick to refuse first: a bake may take minutes.
     render::World world;
     world.scene = scene;
-    if (scene.terrain.elevation.empty())
-        throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "terrain.surface", "a mesh alone",
-                                "terrain.elevation (grass on meshes is not built yet)");
+    world.meshes = load_meshes(scene);
+    world.spheres = load_spheres(scene, world.meshes);
+    if (!scene.terrain.surface.empty()) {
+        world.surface = load_mesh(scene.terrain.surface); // its grass is placed, not baked
+        return world;
+    }
     world.elevation = load_elevation(scene.terrain);
     if (!scene.terrain.mask.empty())
         world.mask = load_mask(scene.terrain);
-    world.meshes = load_meshes(scene);
     world.grass = load_grass(scene);
     return world;
 }

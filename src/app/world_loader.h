@@ -13,9 +13,9 @@ namespace sward::app {
 /// Throws Error.
 [[nodiscard]] scene::Scene load_scene(const Options& options);
 
-/// The meshes of the wind's obstacles, each once. Throws Error.
+/// The meshes of the wind's obstacles and of objects, each once. Throws Error.
 [[nodiscard]] std::map<std::filesystem::path, scene::Mesh> load_meshes(const scene::Scene& scene);
-/// Every file that the scene names: elevation, mask, grass set. Throws Error, or AlreadyReported.
+/// Every file that the scene names: elevation, mask, grass set, or the mesh that stands for them. Throws Error, or AlreadyReported.
 [[nodiscard]] render::World load_world(const scene::Scene& scene);
 
 } // namespace sward::app

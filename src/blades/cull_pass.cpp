@@ -9,8 +9,8 @@
 
 namespace sward::blades {
 
-CullPass::CullPass()
-    : program_("cull blades", {"blades/cull.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
+CullPass::CullPass(std::vector<std::string> defines)
+    : program_("cull blades", {"blades/cull.comp"}, std::move(defines)), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
       commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)) {}
 
 void CullPass::upload(const TileList& list, bool keep_total) {

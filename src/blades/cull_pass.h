@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "blades/blade_tiles.h"
 #include "blades/cull_tests.h"
@@ -21,7 +23,8 @@ public:
     /// Workgroups a batch; a long list is culled and drawn batch by batch, which bounds memory to 2 MiB * kBatch / 2048.
     static constexpr std::size_t kBatch = 2048;
 
-    CullPass();
+    /// `defines`: SURFACE for the blades of a mesh.
+    explicit CullPass(std::vector<std::string> defines = {});
     /// `keep_total`: later pictures of one frame add to its count of survivors.
     void upload(const TileList& list, bool keep_total = false);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
@@ -33,6 +36,7 @@ public:
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
     [[nodiscard]] int command_count() const { return command_count_; }
     [[nodiscard]] const gl::Buffer& survivors() const { return survivors_; }
+    [[nodiscard]] const gl::Program& program() const { return program_; }
     void reload() { program_.reload(); }
 
 private:

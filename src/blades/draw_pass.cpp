@@ -7,9 +7,25 @@
 
 namespace sward::blades {
 
-DrawPass::DrawPass(bool aov)
-    : program_("blades", {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
-               aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {
+namespace {
+
+std::vector<std::string> defines_of(bool aov, bool surface) {
+    std::vector<std::string> defines;
+    if (surface) {
+        defines.emplace_back("SURFACE");
+    }
+    if (aov) {
+        defines.emplace_back("AOV");
+    }
+    return defines;
+}
+
+} // namespace
+
+DrawPass::DrawPass(bool aov, bool surface)
+    : program_(surface ? "surface blades" : "blades",
+               {surface ? "blades/surface_blade.vert" : "blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
+               defines_of(aov, surface)) {
     glCreateVertexArrays(1, &vertex_array_);
 }
 

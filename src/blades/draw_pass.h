@@ -6,15 +6,16 @@
 
 namespace sward::blades {
 
-/// Draws culled blades by tessellation (J8), bent by W3 and moved to their shell pose in the band. Before: frame constants,
-/// clipmap, the set's blades and a culled batch are bound.
+/// Draws culled blades by tessellation (J8), bent by W3 and moved to their shell pose in the band; those of a mesh (`surface`) as they
+/// rest. Before: frame constants, clipmap, the blades and a culled batch are bound.
 class DrawPass {
 public:
-    explicit DrawPass(bool aov);
+    explicit DrawPass(bool aov, bool surface = false);
     ~DrawPass();
     DrawPass(const DrawPass&) = delete;
     DrawPass& operator=(const DrawPass&) = delete;
     void execute(const CullPass& culled);
+    [[nodiscard]] const gl::Program& program() const { return program_; }
     void reload() { program_.reload(); }
 
 private:

@@ -37,6 +37,13 @@ bool draws_far(const FrameSettings& settings) { return settings.tiers == Tiers::
 
 } // namespace
 
+void Renderer::Impl::build_pyramid(const FrameSettings& settings) {
+    if (settings.cull.occlusion) {
+        const gl::PassScope pass(timers, "depth pyramid");
+        depth_pyramid.build(targets.scene_depth(), targets.samples());
+    }
+}
+
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
     const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
                                             {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
@@ -54,6 +61,45 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
     counts.blades_considered += tiles.considered;
 }
 
+FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Shot& shot) {
+    const shared::FrameConstants& constants = shot.constants;
+    {
+        const gl::PassScope pass(timers, "clipmap");
+        clipmap.update({shot.anchor.x + constants.eye.x, shot.anchor.z + constants.eye.z});
+        clipmap.bind();
+        far_appearance.update(constants.light, constants.wind);
+        far_appearance.bind();
+    }
+    FieldView field;
+    field.blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);
+    field.far = shells::select_far(world.grass, field.blocks, shot.bands,
+                                   {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
+                                    mean_bend(constants)});
+    const gl::PassScope pass(timers, "block samples");
+    block_samples.execute(field.blocks);
+    return field;
+}
+
+void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot, const FieldView& field) {
+    DrawPasses& draw = passes(settings.aov);
+    if (settings.terrain) {
+        const gl::PassScope pass(timers, "terrain");
+        draw.terrain.execute(static_cast<int>(field.blocks.size()), block_mesh);
+    }
+    if (draws_blades(settings)) {
+        build_pyramid(settings);
+        draw_blades(settings, shot);
+    }
+    if (draws_far(settings) && settings.shells) {
+        const gl::PassScope pass(timers, "shells");
+        draw.shells.execute({far_textures, field.far.shells, block_mesh});
+    }
+    if (draws_far(settings) && settings.slices) {
+        const gl::PassScope pass(timers, "slices");
+        draw.slices.execute({far_textures, field.far.slices, block_mesh});
+    }
+}
+
 void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
     const int grid = pictures > 1 ? settings.reference_grid : 1;
     const glm::dvec2 jitter = (glm::dvec2(picture % grid, picture / grid) + 0.5) / static_cast<double>(grid) - 0.5;
@@ -66,43 +112,14 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
     frame_buffer.bind_uniform(BIND_FRAME);
 
     // The ground around the eye, and what lies in view of it.
-    {
-        const gl::PassScope pass(timers, "clipmap");
-        clipmap.update({shot.anchor.x + constants.eye.x, shot.anchor.z + constants.eye.z});
-        clipmap.bind();
-        far_appearance.update(constants.light, constants.wind);
-        far_appearance.bind();
-    }
-    const auto blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);
-    const auto far = shells::select_far(world.grass, blocks, shot.bands,
-                                        {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
-                                         mean_bend(constants)});
-
-    {
-        const gl::PassScope pass(timers, "block samples");
-        block_samples.execute(blocks);
-    }
-
+    const FieldView field = mesh_ground ? FieldView{} : prepare_field(settings, shot);
     targets.bind_scene();
     set_gl_state();
-    if (settings.terrain) {
-        const gl::PassScope pass(timers, "terrain");
-        draw.terrain.execute(static_cast<int>(blocks.size()), block_mesh);
-    }
-    if (draws_blades(settings)) {
-        if (settings.cull.occlusion) {
-            const gl::PassScope pass(timers, "depth pyramid");
-            depth_pyramid.build(targets.scene_depth(), targets.samples());
-        }
-        draw_blades(settings, shot);
-    }
-    if (draws_far(settings) && settings.shells) {
-        const gl::PassScope pass(timers, "shells");
-        draw.shells.execute({far_textures, far.shells, block_mesh});
-    }
-    if (draws_far(settings) && settings.slices) {
-        const gl::PassScope pass(timers, "slices");
-        draw.slices.execute({far_textures, far.slices, block_mesh});
+    draw_objects(settings, shot, view.time_s);
+    if (mesh_ground) {
+        draw_mesh_ground(settings, shot);
+    } else {
+        draw_field(settings, shot, field);
     }
     if (settings.sky) {
         const gl::PassScope pass(timers, "sky");

@@ -87,8 +87,8 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     const glm::dvec2 anchor(shot.anchor.x, shot.anchor.z);
     const double focal_px = 0.5 * settings.height / std::tan(0.5 * view.pose.fov_deg * kDegree);
     const double lod_focal_px = 0.5 * settings.height / std::tan(0.5 * view.lod_pose.fov_deg * kDegree);
-    shot.bands = lod::bands({}, {lod_focal_px, mean_blade_width_m, static_cast<double>(set.side_m) / set.levels[0].layers.width,
-                                 static_cast<int>(set.levels.size())}, world.scene.lod);
+    const double texel_m = set.levels.empty() ? 0 : static_cast<double>(set.side_m) / set.levels[0].layers.width;
+    shot.bands = lod::bands({}, {lod_focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())}, world.scene.lod);
 
     shared::FrameConstants& out = shot.constants;
     const glm::dvec3 eye_here = eye - shot.anchor;
@@ -105,7 +105,7 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
     fill_bands(out, shot.bands, settings);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
-    for (int i = 0; i <= shared::kShareSteps; ++i) {
+    for (int i = 0; !set.far.empty() && i <= shared::kShareSteps; ++i) {
         const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;
         out.shell_share[i] = shells::shell_share_at(set, elevation);
         out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
@@ -116,6 +116,9 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.clip_layout.z = settings.height;
     for (std::size_t i = 0; i < set.species.size(); ++i) {
         out.looks[i] = set.species[i].look;
+    }
+    if (mesh_ground) {
+        mesh_ground->describe(out);
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, view.time_s);

@@ -8,6 +8,8 @@
 #include "blades/draw_pass.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
+#include "render/mesh_ground.h"
+#include "render/mesh_pass.h"
 #include "render/renderer.h"
 #include "render/screen_passes.h"
 #include "render/targets.h"
@@ -23,12 +25,24 @@ namespace sward::render {
 struct DrawPasses {
     DrawPasses(bool aov, bool block_shapes)
         : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
-          slices(shells::FarPass::Family::kSlices, aov, block_shapes), screen(aov) {}
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), screen(aov), meshes(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;
     shells::FarPass shells, slices;
     ScreenPasses screen;
+    MeshPass meshes;
+    /// The blades of a mesh; made when a scene has one.
+    [[nodiscard]] blades::DrawPass& surface(bool aov);
     void reload(std::vector<std::string>& failures);
+
+private:
+    std::unique_ptr<blades::DrawPass> surface_;
+};
+
+/// Blocks of ground in view, and the shells and slices over them.
+struct FieldView {
+    std::vector<terrain::VisibleBlock> blocks;
+    shells::FarList far;
 };
 
 /// What one picture of a frame is drawn with: a still has one, the reference one per jitter.
@@ -44,7 +58,14 @@ struct Renderer::Impl {
     /// The frame (design: a frame, top to bottom). `jitter` in pixels; `picture` counts the jittered pictures of one frame.
     void draw_frame(const View& view, const FrameSettings& settings);
     void draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures);
+    /// A field on elevation: what has to be ready before its passes; its passes.
+    [[nodiscard]] FieldView prepare_field(const FrameSettings& settings, const Shot& shot);
+    void draw_field(const FrameSettings& settings, const Shot& shot, const FieldView& field);
+    void build_pyramid(const FrameSettings& settings);
     void draw_blades(const FrameSettings& settings, const Shot& shot);
+    void draw_mesh_ground(const FrameSettings& settings, const Shot& shot);
+    void draw_objects(const FrameSettings& settings, const Shot& shot, double time_s);
+    void make_object_meshes();
     [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
     [[nodiscard]] DrawPasses& passes(bool aov);
 
@@ -63,6 +84,8 @@ struct Renderer::Impl {
     blades::CullPass cull;
     blades::DepthPyramid depth_pyramid;
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
+    std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field, no far tier
+    std::map<std::filesystem::path, MeshBuffer> object_meshes; ///< under the scene's names; "": the ball
     Targets targets;
     gl::PassTimers timers;
     double mean_blade_width_m = 0;

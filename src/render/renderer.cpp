@@ -28,6 +28,9 @@ double wind_response(const grass::GrassSet& set) {
 }
 
 double mean_width(const grass::GrassSet& set) {
+    if (set.levels.empty()) { // a scene on a mesh, which says so itself
+        return 0;
+    }
     if (set.blades.empty()) { // a texel is as wide as a blade
         return set.side_m / static_cast<double>(set.levels.front().layers.width);
     }
@@ -38,14 +41,30 @@ double mean_width(const grass::GrassSet& set) {
     return sum / static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
 }
 
+/// A scene on a mesh has level ground at its datum, which is not drawn.
+World with_ground(World world) {
+    if (!world.surface.triangles.empty()) {
+        world.elevation = {2, 2, {1000, 1000}, {0, 0, 0, 0}, {}};
+        world.mask = {};
+        world.scene.terrain.detail_m = 0;
+    }
+    return world;
+}
+
 } // namespace
 
 Renderer::Impl::Impl(World inputs)
-    : world(std::move(inputs)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
+    : world(with_ground(std::move(inputs))), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
       wind(world.scene.wind, wind_response(world.grass),
            std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), far_textures(world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
       mean_blade_width_m(mean_width(world.grass)) {
+    if (!world.surface.triangles.empty()) {
+        mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene);
+        mean_blade_width_m = mesh_ground->mean_blade_width_m();
+        world.surface = {};
+    }
+    make_object_meshes();
     // The GPU holds the images now; tens of megabytes are freed here.
     for (grass::FarLevel& level : world.grass.levels) {
         level.layers.mips.clear();
@@ -76,6 +95,17 @@ void DrawPasses::reload(std::vector<std::string>& failures) {
     attempt(shells);
     attempt(slices);
     attempt(screen);
+    attempt(meshes);
+    if (surface_) {
+        attempt(*surface_);
+    }
+}
+
+blades::DrawPass& DrawPasses::surface(bool aov) {
+    if (!surface_) {
+        surface_ = std::make_unique<blades::DrawPass>(aov, true);
+    }
+    return *surface_;
 }
 
 Renderer::Renderer(World world) {
@@ -86,7 +116,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::draw(const View& view, const FrameSettings& settings) {
     FrameSettings own = settings;
-    if (impl_->world.grass.blades.empty() && own.tiers == Tiers::kAll) {
+    if (!impl_->mesh_ground && impl_->world.grass.blades.empty() && own.tiers == Tiers::kAll) {
         own.tiers = Tiers::kShells; // a far-only set: the far tier from the eye's feet on
     }
     impl_->draw_frame(view, own);
@@ -104,14 +134,14 @@ FrameStats Renderer::stats() {
         stats.passes.push_back({row.name, row.gpu_ms, row.cpu_ms});
     }
     const FrameSettings& settings = impl_->last_settings;
-    if (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells) {
+    if (!impl_->mesh_ground && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
         stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
         stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
     }
     if (stats.blades_considered > 0) {
-        const auto counts = impl_->cull.counts();
+        const auto counts = (impl_->mesh_ground ? impl_->mesh_ground->grass().cull() : impl_->cull).counts();
         stats.blades_drawn = counts[CULL_KEPT];
         stats.culled_by_frustum = counts[CULL_FRUSTUM];
         stats.culled_by_orientation = counts[CULL_ORIENTATION];
@@ -146,7 +176,8 @@ std::vector<std::string> Renderer::reload_shaders() {
             passes->reload(failures);
         }
     }
-    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); },
+                        +[](Impl& i) { if (i.mesh_ground) { i.mesh_ground->grass().reload(); } }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
         try {
             reload(*impl_);
         } catch (const base::Error& error) {

@@ -71,8 +71,10 @@ struct World {
     scene::Scene scene;
     scene::Heightfield elevation;
     scene::DensityMask mask; ///< width 0: the slope rule
-    grass::GrassSet grass;
-    std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles name, under its names
+    grass::GrassSet grass;   ///< empty where the scene stands on a mesh
+    scene::Mesh surface;     ///< terrain.surface; no triangles: a scene on elevation
+    std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles and objects name, under its names
+    std::map<std::filesystem::path, scene::SphereSet> spheres; ///< the meshes of objects that grass feels, packed; under the same names
 };
 
 /// The library's face. Needs a current GL 4.5 core context at construction, in every call and at destruction; owns no
@@ -97,7 +99,8 @@ public:
     /// Counts and times of the frame just drawn. Waits for the GPU.
     [[nodiscard]] FrameStats stats();
 
-    /// Height of the ground surface that is drawn, metres above the datum, at local x, z (clamped to the terrain).
+    /// Height of the ground surface that is drawn, metres above the datum, at local x, z (clamped to the terrain). 0 in a scene on a
+    /// mesh, which may have any number of surfaces there.
     [[nodiscard]] double ground_height(double x, double z) const;
     /// The pose with its height above the datum (agl resolved).
     [[nodiscard]] scene::Pose above_datum(const scene::Pose& pose) const;

@@ -17,6 +17,11 @@ struct Mesh {
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< at least one
 };
 
+/// Balls that stand for a mesh: centre in its space, radius (m); the greatest first.
+struct SphereSet {
+    std::vector<glm::vec4> spheres;
+};
+
 inline constexpr float kMostCoordinate_m = 1e6f;
 
 } // namespace sward::scene

@@ -72,6 +72,18 @@ Pose sample_path(const Path& path, double time_s) {
     return pose;
 }
 
+Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& paths, double time_s) {
+    Pose pose;
+    if (const auto path = paths.find(object.path); path != paths.end()) {
+        pose = sample_path(path->second, time_s);
+    } else {
+        pose.position = object.position;
+        pose.agl = object.agl;
+    }
+    pose.yaw_deg += object.yaw_deg;
+    return pose;
+}
+
 Pose parse_pose(const std::string& text, const std::string& option) {
     constexpr const char* kForm = "x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch";
     const std::string found = text.empty() ? "nothing" : base::printable(text);

@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/surface_grass.h"
 #include "scene/wind_spec.h"
 
 namespace sward::scene {
@@ -46,7 +47,7 @@ struct TerrainSpec {
     /// Landcover: the mask's integer values -> density 0..1 (values not listed: 0). Empty: the mask is the density.
     std::map<int, double> classes;
     double detail_m = 0.5;      ///< amplitude of procedural relief; 0 = none
-    std::filesystem::path surface;
+    std::filesystem::path surface; ///< a mesh instead of elevation; the datum is its own y = 0
 };
 
 struct GrassSpec {
@@ -64,8 +65,12 @@ struct ObjectSpec {
     double radius_m = 0.5;
     std::filesystem::path mesh;
     glm::dvec3 position{0, 0, 0};
+    bool agl = true;  ///< position.y is above the ground; else above the datum. A path says so itself
     double yaw_deg = 0;
     std::string path; ///< name of a [path.*], or empty
+    glm::dvec3 colour{0.45, 0.42, 0.38}; ///< linear reflectance
+    bool collides = true;   ///< grass feels it
+    int most_spheres = 256; ///< that a mesh which grass feels is packed with
 };
 
 /// Overrides of the tiers' distances; unset means by projected size.
@@ -78,6 +83,7 @@ struct Scene {
     std::filesystem::path file;
     TerrainSpec terrain;
     GrassSpec grass;
+    SurfaceGrassSpec surface_grass; ///< of terrain.surface
     SunSpec sun;
     WindSpec wind;
     std::vector<ObjectSpec> objects;
@@ -85,6 +91,9 @@ struct Scene {
     std::map<std::string, Path> paths;
     LodSpec lod;
 };
+
+/// Where an object stands at a time, turned by its own yaw; `agl` as its path or itself says.
+[[nodiscard]] Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& paths, double time_s);
 
 /// Reads a scene file (TOML, docs/scene.md). Throws Error that names file, line, key, found and expected; an unknown key
 /// names the nearest known one. Files that the scene names are not opened here.

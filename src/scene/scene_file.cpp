@@ -75,6 +75,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     TableReader root(document, file, "");
     auto terrain = root.table("terrain");
     auto grass = root.table("grass");
+    auto surface_grass = root.table("surface_grass");
     auto sun = root.table("sun");
     auto wind = root.table("wind");
     auto objects = root.tables("object", kMostObjects);
@@ -87,6 +88,10 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     read_terrain(*terrain, scene.terrain);
     if (grass)
         read_grass(*grass, scene.grass);
+    if (surface_grass && scene.terrain.surface.empty())
+        throw root.error("surface_grass", "terrain.elevation", "terrain.surface beside it");
+    if (surface_grass)
+        read_surface_grass(*surface_grass, scene.surface_grass);
     if (sun)
         read_sun(*sun, scene.sun);
     if (cameras)

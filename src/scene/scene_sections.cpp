@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kMostKeys = 10000;
 constexpr int kHighestClass = 65535; // 16-bit landcover
 
+constexpr int kMostSpheres = 10000;      // of one mesh
+
 const std::vector<std::string> kObjectKinds = {"sphere", "mesh", "vehicle", "rotor"};
 
 std::optional<glm::dvec2> read_pair(TableReader& table, const char* key, const Range& range) {
@@ -21,6 +23,12 @@ std::optional<glm::dvec2> read_pair(TableReader& table, const char* key, const R
 }
 
 } // namespace
+
+void read_colour(TableReader& table, const char* key, glm::dvec3& colour) {
+    std::vector<double> given;
+    if (table.numbers(key, given, {kShare, kShare, kShare}))
+        colour = {given[0], given[1], given[2]};
+}
 
 void read_terrain(TableReader table, TerrainSpec& terrain) {
     table.path("elevation", terrain.elevation);
@@ -131,8 +139,12 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
     table.number("radius_m", object.radius_m, {0.01, 1000, "m"});
     table.path("mesh", object.mesh);
     table.place("position", object.position);
+    table.boolean("agl", object.agl);
     table.number("yaw_deg", object.yaw_deg, kYaw);
     table.name("path", object.path);
+    read_colour(table, "colour", object.colour);
+    table.boolean("collides", object.collides);
+    table.integer("most_spheres", object.most_spheres, 1, kMostSpheres);
     table.finish();
     table.require("kind");
     if (std::find(kObjectKinds.begin(), kObjectKinds.end(), object.kind) == kObjectKinds.end())
@@ -142,6 +154,8 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
         table.require("mesh");
     if (table.has("position") == table.has("path"))
         throw table.error("", table.has("path") ? "both" : "neither", "either position or path");
+    if (table.has("agl") && table.has("path"))
+        throw table.error("agl", "a path beside it", "agl in the path");
     check_path(table, object.path, paths);
     return object;
 }

@@ -10,6 +10,10 @@ namespace sward::scene {
 /// is their table.
 void read_terrain(TableReader table, TerrainSpec& terrain);
 void read_grass(TableReader table, GrassSpec& grass);
+/// [surface_grass]: grass on terrain.surface. In surface_section.cpp.
+void read_surface_grass(TableReader table, SurfaceGrassSpec& grass);
+/// A linear reflectance [r, g, b], each 0 to 1.
+void read_colour(TableReader& table, const char* key, glm::dvec3& colour);
 void read_sun(TableReader table, SunSpec& sun);
 /// `paths` are the scene's: a source or obstacle that follows one must name one that exists.
 void read_wind(TableReader table, const std::map<std::string, Path>& paths, WindSpec& wind);

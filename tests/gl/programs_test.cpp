@@ -33,12 +33,17 @@ std::vector<Variant> variants() {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
         {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
         {"shells/far.vert", "shells/far.frag"},
+        {"render/mesh.vert", "render/mesh.frag"},
         {"render/screen.vert", "render/sky.frag"},
         {"render/screen.vert", "render/resolve.frag"}};
     for (const auto& stages : with_aov) {
         all.push_back({stages, {}});
         all.push_back({stages, {"AOV"}});
     }
+    const std::vector<fs::path> surface = {"blades/surface_blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"};
+    all.push_back({surface, {"SURFACE"}});
+    all.push_back({surface, {"SURFACE", "AOV"}});
+    all.push_back({{"blades/cull.comp"}, {"SURFACE"}});
     // What a grid is, open or periodic, decides about the passes that run over both.
     for (const char* pass : {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots", "poisson_relax",
                              "poisson_restrict", "poisson_solve", "poisson_update", "poisson_weights", "project", "publish", "vorticity"}) {
@@ -153,7 +158,8 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"Footprints", BIND_WIND_FOOTPRINTS},
         {"Inflow", BIND_WIND_INFLOW},
 
-        {"Blades", BIND_BLADES},          {"Tiles", BIND_BLADE_TILES},
+        {"Blades", BIND_BLADES},          {"SurfaceBlades", BIND_BLADES},
+        {"Tiles", BIND_BLADE_TILES},
         {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
         {"Commands", BIND_DRAW_COMMANDS}, {"Totals", BIND_CULL_TOTAL},
         {"Blocks", BIND_TERRAIN_BLOCKS},  {"Instances", BIND_FAR_INSTANCES},

@@ -246,6 +246,49 @@ TEST_F(SceneFile, ValuesAreCheckedForTypeAndRange) {
               "scene.toml:4: grass.density: found 1.5, expected a number from 0 to 1");
 }
 
+TEST_F(SceneFile, SurfacesCarryTheirOwnGrass) {
+    const std::string kSurface = "[terrain]\nsurface = \"m.glb\"\n";
+    const Scene plain = load(kSurface);
+    EXPECT_EQ(plain.terrain.surface.filename(), "m.glb");
+    EXPECT_EQ(plain.surface_grass.placement, Placement::kMixed);
+    EXPECT_EQ(plain.surface_grass.share_in_tufts(), 0.5);
+    const Scene scene = load(kSurface + "[surface_grass]\ndensity_per_m2 = 250\nplacement = \"tufts\"\nshape = \"triangle-tip\"\n"
+                                        "tip_tau = 0.6\nblade_height_m = [0.1, 0.2]\nroot_colour = [0.1, 0.2, 0.3]\nseed = 9\n");
+    EXPECT_EQ(scene.surface_grass.density_per_m2, 250);
+    EXPECT_EQ(scene.surface_grass.share_in_tufts(), 1);
+    EXPECT_EQ(scene.surface_grass.shape, BladeShape::kTriangleTip);
+    EXPECT_EQ(scene.surface_grass.blade_height_m, glm::dvec2(0.1, 0.2));
+    EXPECT_EQ(scene.surface_grass.root_colour, glm::dvec3(0.1, 0.2, 0.3));
+    const auto wrong = [&](const std::string& line) { return error(kSurface + "[surface_grass]\n" + line + "\n"); };
+    EXPECT_EQ(wrong("density_per_m2 = 0"), "scene.toml:4: surface_grass.density_per_m2: found 0, expected a number from 0.01 to 1000000 blades per m2");
+    EXPECT_EQ(wrong("placement = \"clumps\""), "scene.toml:4: surface_grass.placement: found \"clumps\", expected one of single, tufts, mixed");
+    EXPECT_EQ(wrong("shape = \"leaf\""), "scene.toml:4: surface_grass.shape: found \"leaf\", expected one of quad, triangle, quadratic, triangle-tip, dandelion");
+    EXPECT_EQ(wrong("blade_height_m = [0.3, 0.1]"), "scene.toml:4: surface_grass.blade_height_m: found [0.3, 0.1], expected the lesser first");
+    EXPECT_EQ(wrong("blade_width_m = [0, 0.1]"), "scene.toml:4: surface_grass.blade_width_m[0]: found 0, expected a number from 0.0001 to 1 m");
+    EXPECT_EQ(wrong("tip_color = [1, 1, 1]"), "scene.toml:4: unknown key: found surface_grass.tip_color, expected surface_grass.tip_colour");
+    EXPECT_EQ(wrong("tip_colour = [1, 1, 2]"), "scene.toml:4: surface_grass.tip_colour[2]: found 2, expected a number from 0 to 1");
+    EXPECT_EQ(wrong("placement = \"single\"\ntuft_share = 0.3"), "scene.toml:5: surface_grass.tuft_share: found no mixed placement, expected placement = \"mixed\" beside it");
+    EXPECT_EQ(error(kTerrain + "[surface_grass]\nseed = 1\n"), "scene.toml:3: surface_grass: found terrain.elevation, expected terrain.surface beside it");
+}
+
+TEST_F(SceneFile, ObjectsStandOrFollowTheirPath) {
+    const Scene scene = load(kTerrain + "[[object]]\nkind = \"sphere\"\nposition = [1, 2, 3]\nagl = false\nyaw_deg = 30\n"
+                                        "[[object]]\nkind = \"mesh\"\nmesh = \"a.glb\"\npath = \"p\"\nyaw_deg = 10\ncolour = [0.5, 0, 0]\nmost_spheres = 40\n"
+                                        "[path.p]\nagl = true\nkeys = [{ t = 0, position = [0, 1, 0], yaw_deg = 90 }, { t = 2, position = [4, 1, 0] }]\n");
+    const Pose still = object_pose(scene.objects[0], scene.paths, 7), moving = object_pose(scene.objects[1], scene.paths, 1);
+    EXPECT_EQ(still.position, glm::dvec3(1, 2, 3));
+    EXPECT_FALSE(still.agl);
+    EXPECT_EQ(still.yaw_deg, 30);
+    EXPECT_NEAR(moving.position.x, 2, 1e-9);
+    EXPECT_TRUE(moving.agl);
+    EXPECT_EQ(moving.yaw_deg, 100);
+    EXPECT_EQ(scene.objects[1].most_spheres, 40);
+    EXPECT_EQ(error(kTerrain + "[[object]]\nkind = \"sphere\"\npath = \"p\"\nagl = true\n[path.p]\nkeys = [{ t = 0, position = [0, 0, 0] }]\n"),
+              "scene.toml:6: object[0].agl: found a path beside it, expected agl in the path");
+    EXPECT_EQ(error(kTerrain + "[[object]]\nkind = \"sphere\"\nposition = [0, 0, 0]\nradius_m = -1\n"),
+              "scene.toml:6: object[0].radius_m: found -1, expected a number from 0.01 to 1000 m");
+}
+
 TEST_F(SceneFile, KeysDependOnEachOther) {
     EXPECT_EQ(error(""), "scene.toml:1: terrain: found nothing, expected this key");
     EXPECT_EQ(error("[terrain]\n"),

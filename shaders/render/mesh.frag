@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh: the ground under its grass, or an object. Out: its light: the sun's by Lambert, the sky's, the air.
+#include "lib/frame.glsl"
+#include "lib/output.glsl"
+
+in vec3 world;
+in vec3 normal;
+uniform vec4 turn;
+uniform vec4 colour; // reflectance; tier
+uniform vec4 bare;   // reflectance where the surface is too steep for grass; least cosine of its slope that grass stands on
+
+void main() {
+    vec3 face = normalize(cross(dFdx(world), dFdy(world)));
+    vec3 from_eye = world - frame.eye.xyz;
+    face *= dot(face, from_eye) > 0.0 ? -1.0 : 1.0; // toward the eye, whichever way it is wound
+    vec3 n = normalize(normal + 1e-6 * face);
+    n = dot(n, face) < 0.0 ? -n : n;
+    bool grows = (gl_FrontFacing ? face.y : -face.y) >= bare.w;
+    vec3 radiance = shade_soil(frame.light, grows ? colour.rgb : bare.rgb, n, grows ? turn.z : 0.0);
+    vec4 haze = haze_of(frame.light, from_eye);
+    write_surface(radiance * haze.a + haze.rgb, vec3(colour.w, 0.0, 0.0), vec3(0.0), n);
+}

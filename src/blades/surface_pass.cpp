@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "blades/surface_pass.h"
+
+#include <algorithm>
+#include <span>
+
+#include "shared/bindings.h"
+
+namespace sward::blades {
+
+static_assert(BIND_BLADES == 0); // execute() binds a page there
+
+SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec)
+    : cull_({"SURFACE"}), shape_(static_cast<float>(spec.shape), spec.tip_tau, spec.teeth, spec.tooth_depth),
+      canopy_m_(static_cast<float>(spec.blade_height_m.y)), thin_out_m_(static_cast<float>(spec.thin_out_m)), count_(grass.blades.size()) {
+    for (std::size_t first = 0; first < grass.clusters.size(); first += kPageClusters) {
+        const std::size_t last = std::min(first + kPageClusters, grass.clusters.size());
+        const std::uint32_t begin = grass.clusters[first].first;
+        const std::uint32_t end = grass.clusters[last - 1].first + grass.clusters[last - 1].count;
+        Page page{gl::Buffer::of(std::span(grass.blades).subspan(begin, end - begin)), {}};
+        for (std::size_t c = first; c < last; ++c) {
+            page.clusters.push_back(grass.clusters[c]);
+            page.clusters.back().first -= begin;
+        }
+        pages_.push_back(std::move(page));
+    }
+}
+
+TileList SurfacePass::select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin) {
+    TileList list;
+    for (const SurfaceCluster& cluster : page.clusters) {
+        if (frustum.may_see(cluster.low + origin, cluster.high + origin)) {
+            list.items.emplace_back(cluster.first + cluster.count, cluster.first);
+            list.considered += cluster.count;
+        }
+    }
+    return list;
+}
+
+void SurfacePass::describe(const gl::Program& program, glm::vec3 origin, float thin_out) const {
+    program.set("surface_thin_out", thin_out);
+    program.set("surface_origin", glm::vec4(origin, canopy_m_));
+    program.set("surface_shape", shape_);
+}
+
+} // namespace sward::blades

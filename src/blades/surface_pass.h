@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "blades/cull_pass.h"
+#include "blades/draw_pass.h"
+#include "blades/surface_placement.h"
+#include "gl/buffer.h"
+#include "scene/surface_grass.h"
+#include "terrain/frustum.h"
+
+namespace sward::blades {
+
+/// The blades of a mesh on the GPU: culled cluster by cluster on the CPU, blade by blade on the GPU, and drawn by tessellation (J8).
+class SurfacePass {
+public:
+    /// Clusters a buffer: a storage block may be as small as 128 MiB, this is 64.
+    static constexpr std::size_t kPageClusters = 8192;
+
+    SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec);
+
+    /// Culls and draws what the view reaches, page by page and batch by batch. `origin`: of the mesh's space, anchor-relative.
+    /// `draw`: the SURFACE variant. Before: frame constants are bound, the depth pyramid where occlusion is tested. `keep_total`: later
+    /// pictures of one frame add to its count.
+    /// `pass`(name, what): runs a step under a name for timer and statistics.
+    template<class Pass>
+    void execute(const terrain::Frustum& frustum, glm::vec3 origin, DrawPass& draw, const CullTests& tests, bool keep_total, Pass pass) {
+        considered_ = keep_total ? considered_ : 0;
+        bool again = keep_total;
+        for (const Page& page : pages_) {
+            const TileList list = select(page, frustum, origin);
+            if (list.items.empty() && again) {
+                continue;
+            }
+            cull_.upload(list, again);
+            again = true;
+            considered_ += list.considered;
+            page.blades.bind_storage(0);
+            const float thin_out = tests.distance ? thin_out_m_ : 0;
+            describe(cull_.program(), origin, thin_out);
+            describe(draw.program(), origin, thin_out);
+            for (std::size_t batch = 0; batch < cull_.batches(); ++batch) {
+                pass("cull blades", [&] { cull_.execute(batch, tests); });
+                pass("draw blades", [&] { draw.execute(cull_); });
+            }
+        }
+    }
+
+    [[nodiscard]] std::uint64_t considered() const { return considered_; } ///< blades of the clusters in view
+    [[nodiscard]] const CullPass& cull() const { return cull_; }
+    [[nodiscard]] std::size_t count() const { return count_; }
+    void reload() { cull_.reload(); }
+
+private:
+    struct Page {
+        gl::Buffer blades;
+        std::vector<SurfaceCluster> clusters; ///< `first` within the page
+    };
+    [[nodiscard]] static TileList select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin);
+    void describe(const gl::Program& program, glm::vec3 origin, float thin_out) const;
+
+    std::vector<Page> pages_;
+    CullPass cull_;
+    glm::vec4 shape_;
+    float canopy_m_, thin_out_m_;
+    std::size_t count_;
+    std::uint64_t considered_ = 0;
+};
+
+} // namespace sward::blades
