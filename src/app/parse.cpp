@@ -123,7 +123,7 @@ blades::CullTests parse_cull(std::string_view option, std::string_view text) {
     for (const std::string_view part : split(text, ',')) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const auto& test) { return test.first == part; });
         if (found == known.end() || *found->second)
-            throw option_error(option, part, "none, or each once, of frustum,orientation,distance,occlusion");
+            throw option_error(option, text, "none, or each once, of frustum,orientation,distance,occlusion");
         *found->second = true;
     }
     return tests;

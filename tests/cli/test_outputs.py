@@ -106,7 +106,7 @@ class Outputs(CliCase):
         for row in stats["passes"]:
             self.assertEqual(set(row), {"name", "gpu_ms", "cpu_ms"})
             self.assertGreaterEqual(row["cpu_ms"], 0)
-        self.assertEqual(set(stats["blades"]), {"considered", "drawn"})
+        self.assertEqual(set(stats["blades"]), {"considered", "drawn", "culled"})
         self.assertEqual(set(stats["fragments"]), {"shells", "slices"})
         self.assertGreater(stats["bytes"]["gpu"], 0)
         self.assertGreater(stats["bytes"]["process_peak"], 0)
