@@ -55,7 +55,8 @@ class Surface(CliCase):
         glb(self.dir / "m.glb", *SHEET)
         glb(self.dir / "box.glb", *BOX)
         self.cache = self.dir / "cache"
-        self.env = environment(XDG_CACHE_HOME=self.cache)
+        # The driver's own cache is shared: compiling shaders anew costs more than all else here.
+        self.env = environment(XDG_CACHE_HOME=self.cache, MESA_SHADER_CACHE_DIR=sward_cli.WORK / "cache")
 
     def scene(self, text=SCENE, name="scene.toml"):
         (self.dir / name).write_text(text)
