@@ -32,6 +32,7 @@ std::string stats_json(const render::FrameStats& stats, const std::string& gpu,
     json["size"] = {settings.width, settings.height};
     json["passes"] = std::move(passes);
     json["blades"] = {{"considered", stats.blades_considered}, {"drawn", stats.blades_drawn}};
+    json["physics"] = {{"blades", stats.blades_simulated}, {"steps", stats.physics_steps}, {"patches_stepped", stats.patches_stepped}, {"bytes", stats.physics_bytes}};
     json["fragments"] = {{"shells", stats.shell_fragments}, {"slices", stats.slice_fragments}};
     json["bytes"] = {{"gpu", stats.gpu_bytes}, {"process_peak", process_peak_bytes()}};
     return to_text(json);

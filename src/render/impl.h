@@ -5,6 +5,7 @@
 
 #include "blades/cull_pass.h"
 #include "blades/draw_pass.h"
+#include "blades/simulation.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
 #include "render/renderer.h"
@@ -43,7 +44,10 @@ struct Renderer::Impl {
     /// The frame (design: a frame, top to bottom). `jitter` in pixels; `picture` counts the jittered pictures of one frame.
     void draw_frame(const View& view, const FrameSettings& settings);
     void draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures);
+    /// Pages of living blades in and out, and whole steps of the wind and the blades up to the view's time.
+    void simulate(const View& view, const FrameSettings& settings);
     void draw_blades(const FrameSettings& settings, const Shot& shot);
+    [[nodiscard]] const blades::Simulation* living(const FrameSettings& settings) const;
     [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
     [[nodiscard]] DrawPasses& passes(bool aov);
 
@@ -51,6 +55,7 @@ struct Renderer::Impl {
     [[nodiscard]] wind::Sources& sources() const { return static_cast<wind::Sources&>(*wind.inputs()); }
 
     World world;
+    double response; ///< bend per m/s of the set's mean blade
     terrain::Surface surface;
     terrain::Clipmap clipmap;
     wind::Wind wind;
@@ -60,6 +65,8 @@ struct Renderer::Impl {
     terrain::BlockSamples block_samples;
     gl::Buffer blade_records, frame_buffer;
     blades::CullPass cull;
+    blades::Colliders colliders;
+    std::unique_ptr<blades::Simulation> simulation; ///< made for the first frame that wants it
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
     Targets targets;
     gl::PassTimers timers;
