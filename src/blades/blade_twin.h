@@ -21,9 +21,9 @@ static_assert(sizeof(StepSphere) == 32);
                                    std::span<const StepSphere> spheres, glm::vec4 state);
 
 /// Bend per m/s, 1 / (m/s), at which the far tier's warp moves the tips of a set's blades as J4 does at rest: the least sum of squared
-/// differences between the mean tips, over winds of 2 to 40 m/s that come from all around. `sample`: blades that are run, spread over
+/// differences between the mean tips, over their squares, over winds of 2 to 40 m/s that come from all around. `sample`: blades that are run, spread over
 /// the set. A set without blades answers as grass of middling stiffness.
-[[nodiscard]] double fit_response(const grass::GrassSet& set, int sample = 96);
+[[nodiscard]] double fit_response(const grass::GrassSet& set, int sample = 256);
 
 /// Mean shift downwind and fall (m) of the tips of a set's blades at a wind's speed: J4 run to rest, and the far tier's warp.
 struct MeanTip {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace sward::blades {
 
@@ -22,16 +23,32 @@ void Simulation::restart(double time_s, bool run_up) {
     done_ = std::max<std::int64_t>(lives_from_ - 1 - back, 0);
 }
 
-void Simulation::step(std::int64_t number, const Inputs& inputs, bool run_up) {
-    const double time_s = static_cast<double>(number) * settings_.step_s;
+void Simulation::blow(double time_s, const Inputs& inputs) const {
+    std::optional<gl::PassScope> scope;
+    if (inputs.timers) {
+        scope.emplace(*inputs.timers, "wind");
+    }
     inputs.wind.advance(time_s, {inputs.eye.x, inputs.eye.z}, inputs.most_wind_steps);
     inputs.wind.bind();
+}
+
+void Simulation::physics(double time_s, const shared::BladeStep& rules, const SphereLists& lists, const Inputs& inputs) {
+    std::optional<gl::PassScope> scope;
+    if (inputs.timers) {
+        scope.emplace(*inputs.timers, "physics");
+    }
+    pass_.step(rules, inputs.wind.field({inputs.anchor.x, inputs.anchor.z}, time_s), lists);
+}
+
+void Simulation::step(std::int64_t number, const Inputs& inputs, bool run_up) {
+    const double time_s = static_cast<double>(number) * settings_.step_s;
+    blow(time_s, inputs);
     const auto spheres = inputs.colliders.at(time_s, settings_.step_s);
     const SphereLists lists = sphere_lists(pages_, side_m_, reach_m_, spheres, inputs.anchor);
     pairs_ += lists.pairs;
     shared::BladeStep rules = rules_;
     rules.time.w = run_up ? 1.0f : 0.0f;
-    pass_.step(rules, inputs.wind.field({inputs.anchor.x, inputs.anchor.z}, time_s), lists);
+    physics(time_s, rules, lists, inputs);
 }
 
 void Simulation::advance(double time_s, const Inputs& inputs) {
@@ -39,8 +56,7 @@ void Simulation::advance(double time_s, const Inputs& inputs) {
     const auto target = static_cast<std::int64_t>(std::floor(time_s / settings_.step_s + 1e-6));
     const auto longest = static_cast<std::int64_t>(kRunUp_s / settings_.step_s);
     if (pages_.slots().empty() || !std::isfinite(time_s)) {
-        inputs.wind.advance(time_s, {inputs.eye.x, inputs.eye.z}, inputs.most_wind_steps);
-        inputs.wind.bind();
+        blow(time_s, inputs);
         return;
     }
     if (done_ < 0 || target < done_ || target - done_ > longest) {
@@ -58,12 +74,11 @@ void Simulation::advance(double time_s, const Inputs& inputs) {
         step(done_, inputs, run_up);
         set_up = !run_up;
     }
-    inputs.wind.advance(time_s, {inputs.eye.x, inputs.eye.z}, inputs.most_wind_steps);
-    inputs.wind.bind();
+    blow(time_s, inputs);
     if (!set_up) { // no step has looked after blades that begin
         shared::BladeStep rules = rules_;
         rules.time.x = 0;
-        pass_.step(rules, inputs.wind.field({inputs.anchor.x, inputs.anchor.z}, time_s), sphere_lists(pages_, side_m_, reach_m_, {}, inputs.anchor));
+        physics(time_s, rules, sphere_lists(pages_, side_m_, reach_m_, {}, inputs.anchor), inputs);
     }
 }
 

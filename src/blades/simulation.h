@@ -6,6 +6,7 @@
 #include "blades/colliders.h"
 #include "blades/pages.h"
 #include "blades/physics_pass.h"
+#include "gl/pass.h"
 #include "wind/wind.h"
 
 namespace sward::blades {
@@ -33,6 +34,7 @@ public:
         glm::dvec3 anchor{0};    ///< of the bound frame constants (world metres)
         int most_steps = 0;      ///< in this call, 0: any number; those before the last ones are then left out
         int most_wind_steps = 0; ///< Wind::advance
+        gl::PassTimers* timers = nullptr; ///< if any, gets the passes "wind" and "physics"
     };
     /// Pages in and out, and whole steps up to `time_s`; an earlier time begins anew. The wind then stands at `time_s`, and is bound.
     /// Before: frame constants and clipmap are bound. Throws as Wind::advance does.
@@ -48,7 +50,9 @@ public:
 
 private:
     void restart(double time_s, bool run_up);
+    void blow(double time_s, const Inputs& inputs) const;
     void step(std::int64_t number, const Inputs& inputs, bool run_up);
+    void physics(double time_s, const shared::BladeStep& rules, const SphereLists& lists, const Inputs& inputs);
 
     Settings settings_;
     double side_m_, reach_m_ = 0;

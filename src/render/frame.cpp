@@ -58,8 +58,8 @@ void Renderer::Impl::simulate(const View& view, const FrameSettings& settings) {
     const Shot shot = make_shot(view, settings, glm::dvec2(0));
     frame_buffer.upload(&shot.constants, sizeof(shot.constants));
     frame_buffer.bind_uniform(BIND_FRAME);
-    const gl::PassScope pass(timers, "wind and physics");
-    simulation->advance(view.time_s, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps});
+    simulation->advance(view.time_s, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps,
+                                      &timers});
 }
 
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {

@@ -50,7 +50,7 @@ protected:
         return Simulation(world_.set, world_.frame.wind.mean.w, {{radius_m, bytes}, kStep_s});
     }
     [[nodiscard]] Simulation::Inputs inputs(wind::Wind& wind, const blades::Colliders& colliders, glm::dvec3 eye = kEye) const {
-        return {wind, world_.surface, colliders, eye, world_.anchor, 0, 0};
+        return {wind, world_.surface, colliders, eye, world_.anchor, 0, 0, nullptr};
     }
     static scene::WindSpec calm() {
         scene::WindSpec spec;
