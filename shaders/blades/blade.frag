@@ -7,7 +7,7 @@ in vec3 tangent;
 in vec3 normal;
 in vec2 along;
 flat in vec4 own;
-flat in vec2 sort; // tint of the ground, species
+flat in vec3 sort; // tint of the ground, species, share of the simulated pose
 in vec4 haze;
 
 void main() {
@@ -17,10 +17,6 @@ void main() {
     }
     // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.
     vec2 inside = clamp(along, 0.0, 1.0);
-#ifdef SURFACE
-    float tier = kTierSimulatedBlade;
-#else
-    float tier = kTierGroupedBlade;
-#endif
+    float tier = sort.z > 0.5 ? kTierSimulatedBlade : kTierGroupedBlade;
     write_grass(GrassSample(world, normalize(tangent), normal, own.x, own.y, inside.x, inside.y, own.w, sort.x, tier, int(sort.y), haze));
 }

@@ -28,7 +28,7 @@ out vec2 sway;
 out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
-flat out vec2 sort;    // tint of the ground, species
+flat out vec3 sort;    // tint of the ground, species, share of the simulated pose
 out vec4 haze;
 
 void main() {
@@ -63,7 +63,7 @@ void main() {
     normal = n;
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
-    sort = blade_in[0].ground.yz;
+    sort = blade_in[0].ground.yzw;
     haze = haze_of(frame.light, world - frame.eye.xyz);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

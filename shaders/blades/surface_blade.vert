@@ -32,7 +32,7 @@ void main() {
     // Hair that hangs is as much in the light as the layer it forms: halfway between its height over the surface and its length.
     vec2 above = 0.5 * (vec2(dot(blade.v1_height.xyz, up), dot(blade.v2_width.xyz, up)) + height * vec2(0.5, 1.0));
     blade_out.rest = vec4(above / surface_origin.w, surface_rank_seed(index));
-    blade_out.ground = vec4(dot(up, frame.light.to_sun.xyz), surface_tint(blade.root_direction.xyz), 0.0, 0.0);
+    blade_out.ground = vec4(dot(up, frame.light.to_sun.xyz), surface_tint(blade.root_direction.xyz), 0.0, 1.0);
     blade_out.across = vec4(surface_width_direction(up, blade.root_direction.w), 0.0);
     gl_Position = vec4(0.0);
 }

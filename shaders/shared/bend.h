@@ -132,21 +132,32 @@ SHARED_FN void flutter_blade(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, float
     keep_length(v1, v2, stem);
 }
 
-// A blade's posed control points. `toward_shell` 0: W3 and J5 (the near pose); 1: the very warp that bends its shell image.
-SHARED_FN void pose_blade(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, vec4 stem_canopy_response_shell, vec2 wind) {
-    float stem = stem_canopy_response_shell.x;
-    float canopy = stem_canopy_response_shell.y;
-    float response = stem_canopy_response_shell.z;
-    vec3 near1 = v1 + grouped_offset(v1.y, vec2(stem, canopy), wind, response);
-    vec3 near2 = v2 + grouped_offset(v2.y, vec2(stem, canopy), wind, response);
-    keep_length(near1, near2, stem);
+// The near pose without state: W3 and J5.
+SHARED_FN void grouped_pose(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, vec3 stem_canopy_response, vec2 wind) {
+    float stem = stem_canopy_response.x;
+    vec2 stem_canopy = vec2(stem, stem_canopy_response.y);
+    v1 = v1 + grouped_offset(v1.y, stem_canopy, wind, stem_canopy_response.z);
+    v2 = v2 + grouped_offset(v2.y, stem_canopy, wind, stem_canopy_response.z);
+    keep_length(v1, v2, stem);
+}
+
+// The very warp that bends a blade's shell image.
+SHARED_FN void shell_pose(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, float canopy, float response, vec2 wind) {
     // The warp moves the curve's points; a Bezier through the warped root, middle and tip is its closest quadratic.
     vec3 middle = 0.5f * v1 + 0.25f * v2;
-    vec3 far2 = v2 + bend_offset(v2.y, canopy, wind, response);
-    vec3 far_middle = middle + bend_offset(middle.y, canopy, wind, response);
-    vec3 far1 = 2.0f * far_middle - 0.5f * far2;
-    v1 = mix(near1, far1, stem_canopy_response_shell.w);
-    v2 = mix(near2, far2, stem_canopy_response_shell.w);
+    v2 = v2 + bend_offset(v2.y, canopy, wind, response);
+    middle = middle + bend_offset(middle.y, canopy, wind, response);
+    v1 = 2.0f * middle - 0.5f * v2;
+}
+
+// A grouped blade's posed control points. `shell` 0: the near pose; 1: the shell image's.
+SHARED_FN void pose_blade(SHARED_INOUT(vec3) v1, SHARED_INOUT(vec3) v2, vec4 stem_canopy_response_shell, vec2 wind) {
+    vec3 near1 = v1;
+    vec3 near2 = v2;
+    grouped_pose(near1, near2, vec3(stem_canopy_response_shell), wind);
+    shell_pose(v1, v2, stem_canopy_response_shell.y, stem_canopy_response_shell.z, wind);
+    v1 = mix(near1, v1, stem_canopy_response_shell.w);
+    v2 = mix(near2, v2, stem_canopy_response_shell.w);
 }
 
 SHARED_END

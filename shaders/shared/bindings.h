@@ -8,6 +8,7 @@
 #define BIND_SURFACE 1
 #define BIND_WIND_GRID 2       // WindGrid: the fluid that the wind passes work on
 #define BIND_WIND_FIELD 3      // WindField: the ambient wind at a window's rim
+#define BIND_PHYSICS 4         // BladeStep, WindField: of one step of the blades
 
 // Storage blocks; GL 4.5 promises 0 to 7.
 #define BIND_BLADES 0          // BladeRecord[], the set's
@@ -19,6 +20,19 @@
 #define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
 #define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
 #define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
+
+#define BIND_BLADE_STATES 2    // vec4[]: states of living blades, for the drawing; beside no cull items
+#define BIND_BLADE_PLACES 5    // uint[]: place of a blade in its variant's Morton order; beside no total
+
+// Storage blocks of the blades' physics, which runs before they are drawn.
+#define BIND_PHYSICS_BLADES 0  // BladeRecord[]: the set's, each variant in Morton order
+#define BIND_PHYSICS_PAGES 1   // BladePage[]
+#define BIND_PHYSICS_STATES 2  // vec4[]: CULL_GROUP a patch
+#define BIND_PHYSICS_PATCHES 3 // PatchState[]
+#define BIND_PHYSICS_AWAKE 4   // uint[]: patches to step
+#define BIND_PHYSICS_DISPATCH 5 // their number, as an indirect dispatch, and the sum of all steps
+#define BIND_PHYSICS_LISTS 6   // uint[]: first, count of each patch's spheres; their numbers
+#define BIND_PHYSICS_SPHERES 7 // vec4[]: place and radius now, place a step ago
 
 // Storage blocks of the wind passes, which run before all others.
 #define BIND_WIND_U 0          // float[]: velocity x at west faces
@@ -72,6 +86,7 @@
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
 #define PYRAMID_GROUP 8        // depth pyramid: 8 x 8 texels
+#define WAKE_GROUP 64          // patches a workgroup that looks which are awake
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
 #define CLIP_GROUP 8           // clipmap update: 8 x 8 texels
 

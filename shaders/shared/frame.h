@@ -36,9 +36,10 @@ struct FrameConstants {
     Light light;
     WindField wind;
     vec4 ground_colours[2]; // soil, bare rock; a: unused
+    vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 32);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48);
 #endif
 
 SHARED_CONST int kBlockCells = 8;
@@ -51,7 +52,7 @@ struct TerrainBlock {
 
 // A tile of the grass patch near the eye. 16 bytes.
 struct BladeTile {
-    vec4 place; // world x, z of its corner (m); first blade of its variant; unused
+    vec4 place; // world x, z of its corner (m); blade after its last in the set; number of its page + 1, 0: none
 };
 
 // glMultiDrawArraysIndirect's command. 16 bytes.

@@ -75,6 +75,13 @@ SHARED_FN float distance_width(float rank, float share) {
     return clamp((edge - rank) / kThinRanks, 0.0f, 1.0f) / mean;
 }
 
+// How much of a living blade's own pose is left of it there, 1..0: what pushed it stays in sight for longer than the wind's small
+// differences do, and is gone where the pose has become the shell image's.
+SHARED_FN float own_pose_share(float rank, float distance_m, vec2 band) {
+    float swap = handover_distance(min(rank + kSwapWidth, 1.0f), band);
+    return 1.0f - smoothstep(0.6f * swap, max(0.92f * swap, 1e-3f), distance_m);
+}
+
 // Threshold of a pixel on a 4 x 4 ordered grid, (n + 0.5) / 16 (Bayer 1973).
 SHARED_FN float pixel_threshold(ivec2 pixel) {
     int x = pixel.x & 3;

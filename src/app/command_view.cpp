@@ -24,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kLongestStep = 0.25;   // s: the wind must not leap after a stop
 constexpr int kMostWindSteps = 4;       // of the local window in a frame: a slow GPU slows the wind, not the flight
+constexpr int kMostPhysicsSteps = 4;    // likewise of the blades
 constexpr int kFramesBetweenStats = 15; // reading counters waits for the GPU
 constexpr int kLargestSide = 16384;
 
@@ -80,6 +81,7 @@ private:
         settings_.width = std::min(size.x, kLargestSide);
         settings_.height = std::min(size.y, kLargestSide);
         settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
+        settings_.most_physics_steps = options_.fixed_step ? 0 : kMostPhysicsSteps;
         renderer_.draw({pose_, pose_, time_s_, index}, settings_);
         if (index % kFramesBetweenStats == 0)
             stats_ = renderer_.stats();

@@ -38,6 +38,7 @@ std::string stats_json(const render::FrameStats& stats, const std::string& gpu,
                         {"orientation", stats.culled_by_orientation},
                         {"distance", stats.culled_by_distance},
                         {"occlusion", stats.culled_by_occlusion}}}};
+    json["physics"] = {{"blades", stats.blades_simulated}, {"steps", stats.physics_steps}, {"patches_stepped", stats.patches_stepped}, {"bytes", stats.physics_bytes}};
     json["fragments"] = {{"shells", stats.shell_fragments}, {"slices", stats.slice_fragments}};
     json["bytes"] = {{"gpu", stats.gpu_bytes}, {"process_peak", process_peak_bytes()}};
     return to_text(json);

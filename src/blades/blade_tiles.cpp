@@ -68,7 +68,8 @@ TileList select_tiles(const grass::GrassSet& set, const terrain::Surface& surfac
             list.items.emplace_back(list.tiles.size(), first + chunk);
         }
         if (count > 0) {
-            list.tiles.push_back({{candidate.corner.x, candidate.corner.y, static_cast<float>(first + count), 0}});
+            const int page = query.pages ? query.pages->slot_of(candidate.tile) + 1 : 0;
+            list.tiles.push_back({{candidate.corner.x, candidate.corner.y, static_cast<float>(first + count), static_cast<float>(page)}});
             list.considered += count;
         }
     }

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include "blades/pages.h"
 #include "grass/grass_set.h"
 #include "shared/frame.h"
 #include "terrain/frustum.h"
@@ -25,6 +26,7 @@ struct TileQuery {
     glm::vec3 eye{0};        ///< anchor-relative, where distances are measured from
     glm::vec2 band{0};       ///< hand-over band (m)
     int mode = 0;            ///< hand-over mode (shared/lod.h)
+    const Pages* pages = nullptr; ///< of the living blades; null: none lives
 };
 
 /// Tiles within the band's end that may be seen, nearest first. Inside a tile only the blades whose rank may still be near at

@@ -31,10 +31,13 @@ DrawPass::DrawPass(bool aov, bool surface)
 
 DrawPass::~DrawPass() { glDeleteVertexArrays(1, &vertex_array_); }
 
-void DrawPass::execute(const CullPass& culled) {
+void DrawPass::execute(const CullPass& culled, const PhysicsPass* living) {
     program_.use();
     glBindVertexArray(vertex_array_);
     culled.survivors().bind_storage(BIND_SURVIVORS);
+    if (living) {
+        living->bind_for_drawing();
+    }
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, culled.commands().id());
     glPatchParameteri(GL_PATCH_VERTICES, 1);
     glMultiDrawArraysIndirect(GL_PATCHES, nullptr, culled.command_count(), 0);

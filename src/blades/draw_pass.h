@@ -2,19 +2,21 @@
 #pragma once
 
 #include "blades/cull_pass.h"
+#include "blades/physics_pass.h"
 #include "gl/program.h"
 
 namespace sward::blades {
 
-/// Draws culled blades by tessellation (J8), bent by W3 and moved to their shell pose in the band; those of a mesh (`surface`) as they
-/// rest. Before: frame constants, clipmap, the blades and a culled batch are bound.
+/// Draws culled blades by tessellation (J8), in their simulated pose (J4) or bent by W3, and moved to their shell pose in the band; those of a
+/// mesh (`surface`) as they rest. Before: frame constants, clipmap, the blades and a culled batch are bound.
 class DrawPass {
 public:
     explicit DrawPass(bool aov, bool surface = false);
     ~DrawPass();
     DrawPass(const DrawPass&) = delete;
     DrawPass& operator=(const DrawPass&) = delete;
-    void execute(const CullPass& culled);
+    /// `living`: null where no blade lives.
+    void execute(const CullPass& culled, const PhysicsPass* living = nullptr);
     [[nodiscard]] const gl::Program& program() const { return program_; }
     void reload() { program_.reload(); }
 

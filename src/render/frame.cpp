@@ -44,10 +44,35 @@ void Renderer::Impl::build_pyramid(const FrameSettings& settings) {
     }
 }
 
+const blades::Simulation* Renderer::Impl::living(const FrameSettings& settings) const {
+    return settings.physics && draws_blades(settings) ? simulation.get() : nullptr;
+}
+
+void Renderer::Impl::simulate(const View& view, const FrameSettings& settings) {
+    const glm::dvec3 eye = view.pose.position;
+    if (!settings.physics || !draws_blades(settings) || world.grass.blades.empty()) {
+        const gl::PassScope pass(timers, "wind");
+        wind.advance(view.time_s, {eye.x, eye.z}, settings.most_wind_steps);
+        wind.bind();
+        return;
+    }
+    if (!simulation || simulation->settings().pages.radius_m != settings.simulated_radius_m) {
+        simulation = std::make_unique<blades::Simulation>(world.grass, response, blades::Simulation::Settings{{settings.simulated_radius_m}});
+    }
+    // Blades meet colliders on the ground that is drawn.
+    clipmap.update({eye.x, eye.z});
+    clipmap.bind();
+    const Shot shot = make_shot(view, settings, glm::dvec2(0));
+    frame_buffer.upload(&shot.constants, sizeof(shot.constants));
+    frame_buffer.bind_uniform(BIND_FRAME);
+    simulation->advance(view.time_s, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps,
+                                      &timers});
+}
+
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
     const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
                                             {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
-                                             shot.constants.mode.x});
+                                             shot.constants.mode.x, living(settings) ? &living(settings)->pages() : nullptr});
     cull.upload(tiles, counts.blades_considered > 0);
     blade_records.bind_storage(BIND_BLADES);
     for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
@@ -56,7 +81,7 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
             cull.execute(batch, settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false} : settings.cull);
         }
         const gl::PassScope pass(timers, "draw blades");
-        passes(settings.aov).blades.execute(cull);
+        passes(settings.aov).blades.execute(cull, living(settings) ? &living(settings)->pass() : nullptr);
     }
     counts.blades_considered += tiles.considered;
 }
@@ -134,11 +159,7 @@ void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings)
     last_settings = settings;
     timers.begin_frame();
     targets.require(settings.width, settings.height, settings.samples, settings.aov);
-    {
-        const gl::PassScope pass(timers, "wind");
-        wind.advance(view.time_s, {view.pose.position.x, view.pose.position.z}, settings.most_wind_steps);
-        wind.bind();
-    }
+    simulate(view, settings);
     const int pictures = settings.tiers == Tiers::kReference ? settings.reference_grid * settings.reference_grid : 1;
     for (int picture = 0; picture < pictures; ++picture) {
         draw_picture(view, settings, picture, pictures);

@@ -13,6 +13,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180;
 // Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at the hand-over, since a
 // widened blade covers more than its shell image would.
 constexpr float kWidthMin_px = 0.1f, kWidthSpan_px = 0.35f;
+constexpr float kLivingFade = 0.8f; // of the reach of living blades: beyond, their pose goes to the grouped one, in which they begin
 constexpr float kSegment_px = 18; // longer is cheaper; a blade's curve is nearly flat over so many pixels
 
 glm::dvec3 direction(double yaw_deg, double pitch_deg) {
@@ -122,6 +123,10 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, view.time_s);
+    if (const blades::Simulation* alive = living(settings)) {
+        const auto reach = static_cast<float>(alive->pages().reach_m());
+        out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};
+    }
     out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter
     out.ground_colours[1] = {0.17f, 0.155f, 0.135f, 0};  // bare rock and scree
     return shot;

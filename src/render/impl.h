@@ -6,6 +6,7 @@
 #include "blades/cull_pass.h"
 #include "blades/depth_pyramid.h"
 #include "blades/draw_pass.h"
+#include "blades/simulation.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
 #include "render/mesh_ground.h"
@@ -62,10 +63,13 @@ struct Renderer::Impl {
     [[nodiscard]] FieldView prepare_field(const FrameSettings& settings, const Shot& shot);
     void draw_field(const FrameSettings& settings, const Shot& shot, const FieldView& field);
     void build_pyramid(const FrameSettings& settings);
-    void draw_blades(const FrameSettings& settings, const Shot& shot);
     void draw_mesh_ground(const FrameSettings& settings, const Shot& shot);
     void draw_objects(const FrameSettings& settings, const Shot& shot, double time_s);
     void make_object_meshes();
+    /// Pages of living blades in and out, and whole steps of the wind and the blades up to the view's time.
+    void simulate(const View& view, const FrameSettings& settings);
+    void draw_blades(const FrameSettings& settings, const Shot& shot);
+    [[nodiscard]] const blades::Simulation* living(const FrameSettings& settings) const;
     [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
     [[nodiscard]] DrawPasses& passes(bool aov);
 
@@ -73,6 +77,7 @@ struct Renderer::Impl {
     [[nodiscard]] wind::Sources& sources() const { return static_cast<wind::Sources&>(*wind.inputs()); }
 
     World world;
+    double response; ///< bend per m/s of the set's mean blade
     terrain::Surface surface;
     terrain::Clipmap clipmap;
     wind::Wind wind;
@@ -83,6 +88,8 @@ struct Renderer::Impl {
     gl::Buffer blade_records, frame_buffer;
     blades::CullPass cull;
     blades::DepthPyramid depth_pyramid;
+    blades::Colliders colliders;
+    std::unique_ptr<blades::Simulation> simulation; ///< made for the first frame that wants it
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
     std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field, no far tier
     std::map<std::filesystem::path, MeshBuffer> object_meshes; ///< under the scene's names; "": the ball

@@ -6,6 +6,7 @@
 #include <epoxy/gl.h>
 
 #include "base/error.h"
+#include "blades/blade_twin.h"
 #include "gl/context.h"
 #include "gl/memory.h"
 #include "render/impl.h"
@@ -13,19 +14,6 @@
 namespace sward::render {
 
 namespace {
-
-/// Bend per m/s, from the mean stiffness of the set: every blade answers alike, so that both tiers lean alike.
-double wind_response(const grass::GrassSet& set) {
-    if (set.blades.empty()) { // far-only: as grass of middling stiffness
-        return 0.14 * (1.3 - 0.6);
-    }
-    double stiffness = 0;
-    for (const shared::BladeRecord& blade : set.blades) {
-        stiffness += blade.v2.w;
-    }
-    stiffness /= static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
-    return 0.23 * (1.3 - stiffness);
-}
 
 double mean_width(const grass::GrassSet& set) {
     if (set.levels.empty()) { // a scene on a mesh, which says so itself
@@ -54,11 +42,11 @@ World with_ground(World world) {
 } // namespace
 
 Renderer::Impl::Impl(World inputs)
-    : world(with_ground(std::move(inputs))), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
-      wind(world.scene.wind, wind_response(world.grass),
+    : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
+      wind(world.scene.wind, response,
            std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), far_textures(world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
-      mean_blade_width_m(mean_width(world.grass)) {
+      colliders(world.scene, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
     if (!world.surface.triangles.empty()) {
         mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene);
         mean_blade_width_m = mesh_ground->mean_blade_width_m();
@@ -148,6 +136,12 @@ FrameStats Renderer::stats() {
         stats.culled_by_distance = counts[CULL_DISTANCE];
         stats.culled_by_occlusion = counts[CULL_OCCLUSION];
     }
+    if (const blades::Simulation* living = impl_->living(settings)) {
+        stats.blades_simulated = living->blades();
+        stats.patches_stepped = living->pass().stepped_patches();
+        stats.physics_steps = static_cast<std::uint64_t>(living->steps());
+        stats.physics_bytes = living->pass().bytes();
+    }
     stats.gpu_bytes = gl::gpu_bytes();
     return stats;
 }
@@ -167,6 +161,8 @@ glm::dvec2 Renderer::wind_at(double x, double z, double time_s) const { return i
 
 void Renderer::set_wind_arrows(std::vector<scene::WindArrow> arrows) { impl_->sources().set_arrows(std::move(arrows)); }
 
+void Renderer::set_colliders(std::vector<blades::HostSphere> spheres, double time_s) { impl_->colliders.set_host_spheres(std::move(spheres), time_s); }
+
 void Renderer::wait_for_wind() { impl_->wind.wait(); }
 
 std::vector<std::string> Renderer::reload_shaders() {
@@ -177,6 +173,7 @@ std::vector<std::string> Renderer::reload_shaders() {
         }
     }
     for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); },
+                        +[](Impl& i) { if (i.simulation) { i.simulation->pass().reload(); } },
                         +[](Impl& i) { if (i.mesh_ground) { i.mesh_ground->grass().reload(); } }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
         try {
             reload(*impl_);

@@ -10,6 +10,7 @@
 
 #include <glm/glm.hpp>
 
+#include "blades/colliders.h"
 #include "blades/cull_tests.h"
 #include "grass/grass_set.h"
 #include "scene/heightfield.h"
@@ -38,6 +39,9 @@ struct FrameSettings {
     double reference_distance_m = 60;  ///< likewise for the reference
     int reference_grid = 4;     ///< n x n jittered frames are averaged; cost grows with n^2
     float exposure = 1.0f;
+    bool physics = true;        ///< blades near the eye live (J4 to J6); else all are grouped (W3)
+    double simulated_radius_m = 8; ///< around the eye; memory and time of the physics grow with its square
+    int most_physics_steps = 0; ///< in a frame, 0: any number; steps before the last ones are left out
     int most_wind_steps = 0;    ///< of the local window in a frame, 0: any number; it then lags behind the time instead of the frame
     bool aov = false;           ///< also fill the AOV targets; costs about a third more fill
 };
@@ -61,6 +65,10 @@ struct FrameStats {
     std::uint64_t blades_considered = 0; ///< tested by the cull pass
     std::uint64_t blades_drawn = 0;
     std::uint64_t culled_by_frustum = 0, culled_by_orientation = 0, culled_by_distance = 0, culled_by_occlusion = 0;
+    std::uint64_t blades_simulated = 0;  ///< that have a state
+    std::uint64_t patches_stepped = 0;   ///< of 128 blades, in all steps since the renderer began
+    std::uint64_t physics_steps = 0;     ///< since time 0
+    std::uint64_t physics_bytes = 0;     ///< all buffers of the blades' physics
     std::uint64_t shell_fragments = 0;   ///< that passed every test and were written
     std::uint64_t slice_fragments = 0;
     std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive
@@ -113,6 +121,10 @@ public:
     /// Puts these arrows in the place of the scene's, from the next step of the wind on: for an editor. Every parent is
     /// among them, and chains end.
     void set_wind_arrows(std::vector<scene::WindArrow> arrows);
+
+    /// Spheres that the host drives (world metres, y above the datum) and that push blades, as at `time_s`, the time of the next frame;
+    /// those of the same number in the call before came from there. Throws base::Error(kBadInput) for a radius not above 0.
+    void set_colliders(std::vector<blades::HostSphere> spheres, double time_s);
 
     /// Recompiles programs whose source changed; returns messages of those that failed (the old program stays).
     [[nodiscard]] std::vector<std::string> reload_shaders();

@@ -100,7 +100,7 @@ class Outputs(CliCase):
                              "--debug-gl", "--warm", "1")
         self.assert_done(result)
         stats = json.loads((self.dir / "s.json").read_text())
-        self.assertEqual(set(stats), {"gpu", "size", "passes", "blades", "fragments", "bytes"})
+        self.assertEqual(set(stats), {"gpu", "size", "passes", "blades", "physics", "fragments", "bytes"})
         self.assertEqual(stats["size"], [64, 36])
         self.assertGreater(len(stats["passes"]), 4)
         for row in stats["passes"]:

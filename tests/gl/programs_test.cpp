@@ -28,6 +28,8 @@ std::vector<Variant> variants() {
                                 {{"blades/depth_pyramid.comp"}, {}},
                                 {{"blades/depth_pyramid.comp"}, {"FIRST"}},
                                 {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
+                                {{"blades/wake.comp"}, {}},
+                                {{"blades/physics.comp"}, {}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
@@ -119,7 +121,8 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
     const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME},
                                                          {"SurfaceBlock", BIND_SURFACE},
                                                          {"WindGridBlock", BIND_WIND_GRID},
-                                                         {"WindFieldBlock", BIND_WIND_FIELD}};
+                                                         {"WindFieldBlock", BIND_WIND_FIELD},
+                                                         {"PhysicsBlock", BIND_PHYSICS}};
     // The wind's passes run before all others and share their binding points among themselves.
     const std::map<std::string, GLint> storage_blocks = {
         {"WindU", BIND_WIND_U},
@@ -157,6 +160,12 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"TileItems", BIND_WIND_TILE_ITEMS},
         {"Footprints", BIND_WIND_FOOTPRINTS},
         {"Inflow", BIND_WIND_INFLOW},
+
+        {"Records", BIND_PHYSICS_BLADES}, {"Pages", BIND_PHYSICS_PAGES},
+        {"States", BIND_PHYSICS_STATES},  {"Patches", BIND_PHYSICS_PATCHES},
+        {"Awake", BIND_PHYSICS_AWAKE},    {"Dispatch", BIND_PHYSICS_DISPATCH},
+        {"Lists", BIND_PHYSICS_LISTS},    {"Spheres", BIND_PHYSICS_SPHERES},
+        {"Places", BIND_BLADE_PLACES},
 
         {"Blades", BIND_BLADES},          {"SurfaceBlades", BIND_BLADES},
         {"Tiles", BIND_BLADE_TILES},
@@ -232,7 +241,9 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         {"terrain/clipmap_surface.comp", {CLIP_GROUP, CLIP_GROUP, 1}},
         {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
         {"blades/depth_pyramid.comp", {PYRAMID_GROUP, PYRAMID_GROUP, 1}},
-        {"blades/cull.comp", {CULL_GROUP, 1, 1}}};
+        {"blades/cull.comp", {CULL_GROUP, 1, 1}},
+        {"blades/wake.comp", {WAKE_GROUP, 1, 1}},
+        {"blades/physics.comp", {CULL_GROUP, 1, 1}}};
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
         if (variant.stages[0].extension() == ".comp") {

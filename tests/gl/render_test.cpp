@@ -91,17 +91,17 @@ TEST_F(Render, AovsHoldEveryTierAndAreFinite) {
         EXPECT_GE(texel[6], 0.0f);
         EXPECT_LE(texel[6], 1.0f);
         EXPECT_EQ(texel[4] > 0, tier != 7) << "only the sky has no depth";
-        if (tier == 2 || tier == 3 || tier == 4 || tier == 5) {
+        if (tier == 1 || tier == 2 || tier == 3 || tier == 4 || tier == 5) {
             EXPECT_NEAR(glm::length(glm::vec3(texel[7], texel[8], texel[9])), 1, 0.02);
             EXPECT_GT(texel[13], 0.0f); // rank
         }
     }
-    for (const int tier : {0, 2, 3, 7}) {
+    for (const int tier : {0, 1, 3, 7}) {
         EXPECT_GT(tiers[tier], 20) << "tier " << tier;
     }
     EXPECT_GT(tiers[4] + tiers[5], 20);
     for (const auto& [tier, count] : tiers) {
-        EXPECT_TRUE(std::set<int>({0, 2, 3, 4, 5, 7}).count(tier)) << tier;
+        EXPECT_TRUE(std::set<int>({0, 1, 2, 3, 4, 5, 7}).count(tier)) << tier;
     }
 }
 
@@ -228,9 +228,11 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"wind", "clipmap", "block samples", "terrain", "depth pyramid", "cull blades",
+    EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "block samples", "terrain", "depth pyramid", "cull blades",
                                                "draw blades", "shells", "slices", "sky", "resolve",
                                                "tone map"}));
+    EXPECT_GT(stats.blades_simulated, 1000u);
+    EXPECT_GT(stats.physics_bytes, 16 * stats.blades_simulated);
     EXPECT_GT(stats.blades_drawn, 100u);
     EXPECT_LT(stats.blades_drawn, stats.blades_considered);
     EXPECT_GT(stats.shell_fragments, 100u);
@@ -263,10 +265,10 @@ TEST_F(Render, TiersDrawWhatTheirNamesSay) {
         }
         return seen;
     };
-    EXPECT_EQ(tiers_of(Tiers::kBlades), (std::set<int>{0, 2, 7}));
-    EXPECT_EQ(tiers_of(Tiers::kReference), (std::set<int>{0, 2, 7}));
+    EXPECT_EQ(tiers_of(Tiers::kBlades), (std::set<int>{0, 1, 2, 7}));
+    EXPECT_EQ(tiers_of(Tiers::kReference), (std::set<int>{0, 1, 2, 7}));
     const auto shells = tiers_of(Tiers::kShells);
-    EXPECT_TRUE(shells.count(3) && !shells.count(2));
+    EXPECT_TRUE(shells.count(3) && !shells.count(2) && !shells.count(1));
 }
 
 TEST_F(Render, LeavesNothingBehind) {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the states of living blades lie: a page a tile, in slots of a pool; a page is a run of patches (J3) of CULL_GROUP
+// blades, neighbours on the ground, in the Morton order of their variant.
+#ifndef SWARD_SHARED_BLADE_PAGES_H
+#define SWARD_SHARED_BLADE_PAGES_H
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+// A slot of the pool. 32 bytes.
+struct BladePage {
+    vec4 place;  // x, z of the tile's corner, anchor-relative (m); unused
+    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; unused
+};
+
+SHARED_CONST uint kPatchFree = 0u;
+SHARED_CONST uint kPatchNew = 1u;    // its blades take up the grouped pose in the next step
+SHARED_CONST uint kPatchAwake = 2u;
+SHARED_CONST uint kPatchAsleep = 3u; // nothing moves: skipped until the wind changes or a collider comes
+
+// 16 bytes.
+struct PatchState {
+    vec2 wind;   // at the patch's first blade in its last step (m/s)
+    uint status;
+    uint steps;  // since it was set up, for the statistics
+};
+#ifdef __cplusplus
+static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16);
+#endif
+
+// A patch falls asleep when no blade remembers a push and none moves by more than this part of its length in a step; it then is
+// within a thirtieth of a percent of its balance.
+SHARED_CONST float kStillMove = 2e-6f;
+SHARED_CONST float kStillWind_ms = 0.002f; // change of wind that wakes it
+
+// Weight of the simulated pose against the grouped one at a distance from the eye; band: start and end of the fade (m).
+SHARED_FN float simulated_share(float distance_m, vec2 band) {
+    return 1.0f - smoothstep(band.x, band.y, distance_m);
+}
+
+SHARED_END
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "blades/colliders.h"
+#include "blades/pages.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "shared/bindings.h"
+#include "shared/blade_physics.h"
+#include "shared/wind.h"
+
+namespace sward::blades {
+
+/// The states of living blades on the GPU and one fixed step of them (J4 to J6): a pass finds the patches that are awake, a second one
+/// steps those, by an indirect dispatch; patches at rest cost a test each. 16 bytes a blade and 16 a patch; the blades' records are the
+/// set's own, once.
+class PhysicsPass {
+public:
+    PhysicsPass(const grass::GrassSet& set, const Pages& pages);
+
+    /// Brings the slots' places for an anchor (world metres) to the GPU, and marks new and free patches. After every Pages::update.
+    void place(const Pages& pages, double side_m, glm::dvec3 anchor);
+    /// One step, of the patches that are awake or that something touches. Before: frame constants, clipmap and wind are bound.
+    void step(const shared::BladeStep& rules, const shared::WindField& wind, const SphereLists& spheres);
+    /// What the drawing of blades reads.
+    void bind_for_drawing() const;
+
+    [[nodiscard]] int blades_a_page() const { return patches_a_page_ * CULL_GROUP; }
+    /// Patches that steps worked on since the count began. Waits for the GPU.
+    [[nodiscard]] std::uint64_t stepped_patches() const;
+    void begin_count();
+    [[nodiscard]] std::size_t bytes() const;
+    [[nodiscard]] const gl::Buffer& states() const { return states_; }
+    [[nodiscard]] const gl::Buffer& patches() const { return patches_; }
+    void reload();
+
+private:
+    void mark(const Pages& pages);
+    int patches_a_page_, patch_count_;
+    std::vector<shared::BladePage> placed_;
+    std::vector<bool> marked_; ///< slots whose patches are not free
+    std::vector<std::uint32_t> variant_begin_;
+    gl::Program wake_, step_;
+    gl::Buffer records_, places_, pages_, states_, patches_, awake_, dispatch_, lists_, spheres_, block_;
+};
+
+} // namespace sward::blades
