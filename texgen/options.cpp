@@ -316,7 +316,7 @@ Options parse_options(int argc, char** argv) {
         o.help = std::string(done.what()) + "\n";
         return o;
     } catch (const CLI::ArgumentMismatch& problem) { // "--size=": CLI11 speaks of a missing N
-        throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200) + ": expected a value");
+        throw base::Error(base::ExitCode::kUsage, fmt::format("{}: expected a value", base::printable(problem.what(), 200)));
     } catch (const CLI::ParseError& problem) {
         throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
     }
