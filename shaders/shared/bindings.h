@@ -47,6 +47,7 @@
 #define BIND_WIND_FOOTPRINTS 7 // uint[]: bits of meshes' footprints
 #define BIND_WIND_U_NEXT 4     // float[], written by the advection
 #define BIND_WIND_V_NEXT 5
+#define BIND_WIND_EARLIER_PRESSURE 3 // float[]: of the step before the last
 #define BIND_WIND_NEXT_PRESSURE 3 // float[]: of the next Jacobi sweep, in the published scheme
 #define BIND_WIND_LAST_PRESSURE 2 // float[]: of the last step, for the advection
 #define BIND_WIND_DIRECTION 0  // float[]: conjugate gradients: last direction of search, the next one, its product with

@@ -27,5 +27,5 @@ void main() {
     vec4 around = vec4(beyond(0, inner - ivec2(1, 0)) ? 0.0 : pressure[west], beyond(0, inner + ivec2(1, 0)) ? 0.0 : pressure[east],
                        beyond(0, inner - ivec2(0, 1)) ? 0.0 : pressure[north], beyond(0, inner + ivec2(0, 1)) ? 0.0 : pressure[south]);
     float taken = dot(w, around - pressure[own]);
-    rhs[own] = w != vec4(0.0) ? flow.y - flow.x + flow.w - flow.z - wind_inflow[own] * grid.size.x - taken : 0.0;
+    rhs[own] = w != vec4(0.0) ? flow.y - flow.x + flow.w - flow.z - sane(wind_inflow[own] * grid.size.x) - taken : 0.0;
 }

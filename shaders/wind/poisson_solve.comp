@@ -23,7 +23,7 @@ void main() {
 #else
     float over = 2.0 / (1.0 + sin(kPi / float(n)));
 #endif
-    for (int half_sweep = 0; half_sweep < 2 * n + 16; ++half_sweep) {
+    for (int half_sweep = 0; half_sweep < n + 8; ++half_sweep) {
         for (int i = first; i < n * n; i += WIND_SOLVE_GROUP) {
             ivec2 c = ivec2(i % n, i / n);
             if (((c.x + c.y + half_sweep) & 1) == 0) {

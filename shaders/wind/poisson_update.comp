@@ -8,12 +8,16 @@ layout(std430, binding = BIND_WIND_NEXT_DIRECTION) readonly buffer WindNextDirec
 layout(std430, binding = BIND_WIND_PRODUCT) readonly buffer WindProduct { float product[]; };
 layout(std430, binding = BIND_WIND_SCALARS) readonly buffer WindScalars { float scalars[]; };
 
+// More than any flow can need; a region that walls close and a moving solid squeezes has no solution, and would climb for ever.
+const float kMostPressure = 1e6;
+
 void main() {
     ivec2 c = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(c, ivec2(side_of(0))))) {
         return;
     }
     int own = element(0, c);
-    pressure[own] += scalars[0] * next_direction[own];
+    float next = pressure[own] + scalars[0] * next_direction[own];
+    pressure[own] = abs(next) < kMostPressure ? next : 0.0;
     rhs[own] -= scalars[0] * product[own];
 }

@@ -7,5 +7,6 @@ layout(std430, binding = BIND_WIND_SOLID_VELOCITY) readonly buffer WindSolidVelo
 
 // Velocity of the solid at the face between two cells (element numbers): of the one that is solid, else of the second.
 vec2 solid_velocity_between(int first, int second) {
-    return wind_solid_velocity[wind_solid[second] != 0u ? second : first];
+    vec2 velocity = wind_solid_velocity[wind_solid[second] != 0u ? second : first];
+    return vec2(sane(velocity.x), sane(velocity.y));
 }

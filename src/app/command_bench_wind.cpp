@@ -95,16 +95,17 @@ void bench_wind(BenchReport& report) {
         own_step();
         published_step();
     }
-    std::vector<double> own_ms, published_ms;
+    std::vector<double> own_ms, published_ms, ratios;
     for (int round = 0; round < kRounds; ++round) {
         own_ms.push_back(step_ms(own_step));
         published_ms.push_back(step_ms(published_step));
+        ratios.push_back(own_ms.back() / published_ms.back());
     }
     const std::string scene = "gusts 1000 x 1000";
     report.rows.push_back({scene, "sward", "step", spread_of(own_ms), between - before});
     report.rows.push_back({scene, "published", "step", spread_of(published_ms), after - between});
     const double own = divergence_share(*fluid.grid().u, *fluid.grid().v), theirs = divergence_share(published.u(), published.v());
-    report.checks.push_back({"wind: step over the published scheme's", spread_of(own_ms).min / spread_of(published_ms).min, 1});
+    report.checks.push_back({"wind: step over the published scheme's, median of rounds", spread_of(ratios).median, 1});
     report.checks.push_back({"wind: divergence over the published scheme's", own / theirs, 0.05});
     report.checks.push_back({"wind: divergence times cell over speed", own, 1e-3});
 }

@@ -30,6 +30,9 @@ void run(int argc, char** argv) {
     case sward::app::Command::kWind:
         sward::app::run_wind(options);
         break;
+    case sward::app::Command::kBench:
+        sward::app::run_bench(options);
+        break;
     case sward::app::Command::kInfo:
         sward::app::run_info();
         break;

@@ -35,6 +35,8 @@ constexpr std::array<std::pair<std::string_view, HandoverMode>, 4> kHandovers = 
 constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
     {{"1", 1}, {"2", 2}, {"4", 4}}};
 
+constexpr std::array<std::pair<std::string_view, const char*>, 1> kSuites = {{{"wind", "wind"}}};
+
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
 constexpr NumberRange kExposure{1e-6, 1e6, ""};
@@ -203,6 +205,12 @@ void declare_wind(CLI::App& app, Options* o) {
     app.add_flag("--debug-gl", o->debug_gl, "an OpenGL debug context; any message is a failure (exit 1)");
 }
 
+void declare_bench(CLI::App& app, Options* o) {
+    declare(app, "SUITE", "wind", "what is measured; default wind",
+            [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
+    declare_path(app, "--json", "FILE", "the figures as JSON", &o->bench_json);
+}
+
 std::string one_line(std::string text) {
     std::replace(text.begin(), text.end(), '\n', ' ');
     return base::printable(text, 300);
@@ -248,11 +256,13 @@ Options parse_options(int argc, const char* const* argv) {
     CLI::App* const view = app.add_subcommand("view", "fly through a scene");
     CLI::App* const render =
         app.add_subcommand("render", "a picture or a sequence, without a window");
+    CLI::App* const bench = app.add_subcommand("bench", "figures of this machine, held to their limits");
     CLI::App* const wind = app.add_subcommand("wind", "the wind around a place, as pictures of numbers");
     CLI::App* const info = app.add_subcommand("info", "renderer, limits, versions, paths");
     declare_view(*view, &o);
     declare_render(*render, &o);
     declare_wind(*wind, &o);
+    declare_bench(*bench, &o);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -267,6 +277,7 @@ Options parse_options(int argc, const char* const* argv) {
     o.command = view->parsed()     ? Command::kView
                 : render->parsed() ? Command::kRender
                 : wind->parsed()   ? Command::kWind
+                : bench->parsed()  ? Command::kBench
                                    : Command::kInfo;
     static_cast<void>(info);
     o.verbosity = quiet     ? base::Verbosity::kQuiet

@@ -13,7 +13,7 @@
 
 namespace sward::app {
 
-enum class Command { kHelp, kView, kRender, kWind, kInfo };
+enum class Command { kHelp, kView, kRender, kWind, kBench, kInfo };
 
 /// Frames of a sequence, both ends included.
 struct FrameRange {
@@ -46,6 +46,10 @@ struct Options {
     std::uint32_t frame_index = 0;
     std::optional<scene::Pose> lod_eye;
     int warm = 0;
+
+    // bench
+    std::string bench_suite = "wind";
+    std::filesystem::path bench_json; ///< empty: none
 
     // wind
     std::optional<double> every_s; ///< a picture each so many seconds up to time_s; none: one, at time_s

@@ -23,7 +23,21 @@ constexpr double kStableDiffusion = 0.2; // viscosity * step / cell^2 that expli
 int wrap(int value, int n) { return ((value % n) + n) % n; }
 
 void storage_barrier() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+constexpr int kFirstSteps = 2, kEarlySteps = 12; // see Fluid::iterations
 constexpr GLbitfield kAll = GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+
+/// The published cells are the largest block, and a buffer texture over them.
+void require_room(int cells) {
+    GLint64 block = 0;
+    GLint texels = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
+    const std::int64_t most = std::min(block / static_cast<std::int64_t>(sizeof(glm::vec4)), static_cast<std::int64_t>(texels));
+    if (static_cast<std::int64_t>(cells) * cells > most) {
+        throw base::Error(base::ExitCode::kOverLimit, fmt::format("wind.cells: found {}, expected at most {} on this GPU", cells,
+                                                                  static_cast<int>(std::sqrt(static_cast<double>(most)))));
+    }
+}
 
 } // namespace
 
@@ -34,6 +48,7 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     if (settings_.confinement > 0) {
         defines_.emplace_back("CONFINEMENT");
     }
+    require_room(settings_.cells);
     lay_out_levels();
     const std::size_t cells = static_cast<std::size_t>(settings_.cells) * settings_.cells;
     const auto last = constants_.level_plan[constants_.inner.z - 1];
@@ -50,7 +65,7 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     phi_ = gl::Buffer(all * sizeof(float));
     rhs_ = gl::Buffer(all * sizeof(float));
     weights_ = gl::Buffer(all * sizeof(std::uint32_t));
-    for (gl::Buffer* buffer : {&pressure_, &direction_, &next_direction_, &product_}) {
+    for (gl::Buffer* buffer : {&pressure_, &earlier_pressure_, &direction_, &next_direction_, &product_}) {
         *buffer = gl::Buffer(cells * sizeof(float));
         buffer->clear_to_zero();
     }
@@ -183,6 +198,7 @@ void Fluid::set_state(std::span<const float> u, std::span<const float> v) {
     u_carried_.upload(u.data(), std::min(u.size_bytes(), u_.bytes()));
     v_carried_.upload(v.data(), std::min(v.size_bytes(), v_.bytes()));
     pressure_.clear_to_zero();
+    earlier_pressure_.clear_to_zero();
     steps_ = 0;
     upload_constants();
     publish(true);
@@ -194,7 +210,11 @@ void Fluid::move_to(glm::ivec2 first, const shared::WindField& rim) {
     glm::ivec2 low = glm::clamp(-shift, glm::ivec2(0), glm::ivec2(n)), high = glm::clamp(n - shift, glm::ivec2(0), glm::ivec2(n));
     if (!solids_known_) { // never stepped: nothing is worth keeping
         low = high = glm::ivec2(0);
+    }
+    if (const int kept = (high.x - low.x) * (high.y - low.y); kept < n * n / 2) { // after a leap the last pressure is none to begin with
         steps_ = 0;
+    } else if (kept < n * n - n * n / 8) {
+        steps_ = std::min(steps_, kFirstSteps);
     }
     first_ = first;
     moved_ = true;
@@ -204,9 +224,11 @@ void Fluid::move_to(glm::ivec2 first, const shared::WindField& rim) {
     u_carried_.bind_storage(BIND_WIND_U_CARRIED);
     v_carried_.bind_storage(BIND_WIND_V_ENTERING);
     pressure_.bind_storage(BIND_WIND_PRESSURE);
+    earlier_pressure_.bind_storage(BIND_WIND_EARLIER_PRESSURE);
     published_.bind_storage(BIND_WIND_CELLS);
     program("enter").set("kept", glm::ivec4(low, high));
     dispatch("enter", glm::ivec2(n));
+    glMemoryBarrier(kAll);
 }
 
 void Fluid::publish(bool fresh) {
@@ -237,6 +259,18 @@ void Fluid::advect() {
     dispatch("advect", glm::ivec2(settings_.cells));
 }
 
+/// The first two pressures follow a start from nothing: no trend to go on with.
+void Fluid::guess_pressure() {
+    if (steps_ > kFirstSteps) {
+        bind_poisson();
+        pressure_.bind_storage(BIND_WIND_PRESSURE);
+        earlier_pressure_.bind_storage(BIND_WIND_EARLIER_PRESSURE);
+        dispatch("poisson_guess", glm::ivec2(constants_.inner.y));
+    } else {
+        glCopyNamedBufferSubData(pressure_.id(), earlier_pressure_.id(), 0, 0, static_cast<GLsizeiptr>(pressure_.bytes()));
+    }
+}
+
 /// phi from the residual: a V-cycle with one red-black sweep down and one up.
 void Fluid::cycle() {
     const int coarsest = constants_.inner.z - 1;
@@ -251,6 +285,11 @@ void Fluid::cycle() {
         dispatch("poisson_correct", half(level), level, 0);
         dispatch("poisson_relax", half(level), level, 1);
     }
+}
+
+/// The first steps have no pressure to begin with (the second one's is the first to hold the half that acts before the advection).
+int Fluid::iterations(bool solids_changed) const {
+    return settings_.cycles * (steps_ < kFirstSteps ? 8 : steps_ < kEarlySteps ? 4 : solids_changed ? 2 : 1);
 }
 
 /// Conjugate gradients with the multigrid as preconditioner: alone it converges in free air, but may diverge beside walls thinner
@@ -298,10 +337,12 @@ void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& ri
     advect();
     inputs.apply_forces(grid());
     storage_barrier();
+    guess_pressure();
     bind_poisson();
     pressure_.bind_storage(BIND_WIND_PRESSURE);
     dispatch("divergence", glm::ivec2(constants_.inner.y));
-    solve(settings_.cycles * (steps_++ < 2 ? 4 : solids_changed ? 2 : 1));
+    solve(iterations(solids_changed));
+    ++steps_;
     bind_poisson();
     pressure_.bind_storage(BIND_WIND_PRESSURE);
     u_carried_.bind_storage(BIND_WIND_U_CARRIED);

@@ -23,8 +23,8 @@ struct FluidSettings {
     double viscosity_m2s = 0;
     double dissipation_per_s = 0; ///< of what differs from the mean wind
     glm::dvec2 mean_ms{0};        ///< mean wind (m/s)
-    int cycles = 2;               ///< iterations of the pressure solve; each divides the divergence by about seven and costs a third of a
-                                  ///< step. Four times as many in the first two steps, twice as many when solids change
+    int cycles = 1; ///< iterations of the pressure solve: each divides the divergence by seven to thirty and costs a third of a
+                    ///< step. More where the last pressure is no good guess: see Fluid::iterations
 };
 
 /// W2 in two dimensions on a staggered grid, by compute passes over storage buffers: vorticity confinement, advection of third
@@ -61,7 +61,9 @@ private:
     void dispatch(const std::string& name, glm::ivec2 cells, int level = -1, int colour = -1);
     void build_weights();
     void advect();
+    void guess_pressure();
     void cycle();
+    [[nodiscard]] int iterations(bool solids_changed) const;
     void solve(int iterations);
     void publish(bool fresh);
     gl::Program& program(const std::string& name);
@@ -76,7 +78,7 @@ private:
     std::map<std::string, gl::Program> programs_;
     gl::Buffer constants_buffer_, rim_buffer_;
     gl::Buffer u_, v_, u_carried_, v_carried_, vorticity_, published_, solid_, solid_velocity_, inflow_;
-    gl::Buffer phi_, rhs_, weights_, pressure_, direction_, next_direction_, product_, partials_, scalars_;
+    gl::Buffer phi_, rhs_, weights_, pressure_, earlier_pressure_, direction_, next_direction_, product_, partials_, scalars_;
 };
 
 } // namespace sward::wind

@@ -47,7 +47,7 @@ std::vector<Variant> variants() {
     all.push_back({surface, {"SURFACE", "AOV"}});
     all.push_back({{"blades/cull.comp"}, {"SURFACE"}});
     // What a grid is, open or periodic, decides about the passes that run over both.
-    for (const char* pass : {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots", "poisson_relax",
+    for (const char* pass : {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots", "poisson_guess", "poisson_relax",
                              "poisson_restrict", "poisson_solve", "poisson_update", "poisson_weights", "project", "publish", "vorticity"}) {
         all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
         all.push_back({{std::string("wind/") + pass + ".comp"}, {"PERIODIC"}});
@@ -137,6 +137,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"WindLastPressure", BIND_WIND_LAST_PRESSURE},
         {"WindPressure", BIND_WIND_PRESSURE},
         {"WindNextPressure", BIND_WIND_NEXT_PRESSURE},
+        {"WindEarlierPressure", BIND_WIND_EARLIER_PRESSURE},
         {"WindPhi", BIND_WIND_PHI},
         {"WindRhs", BIND_WIND_RHS},
         {"WindWeights", BIND_WIND_WEIGHTS},
