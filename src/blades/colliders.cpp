@@ -77,9 +77,16 @@ void each_patch(const Pages& pages, double side_m, const Box& box, Found found) 
 
 } // namespace
 
-Colliders::Colliders(const scene::Scene& scene, Ground ground) : file_(scene.file.string()), paths_(scene.paths), ground_(std::move(ground)) {
+Colliders::Colliders(const scene::Scene& scene, const std::map<std::filesystem::path, scene::SphereSet>& packed, Ground ground)
+    : file_(scene.file.string()), paths_(scene.paths), ground_(std::move(ground)) {
     for (const scene::ObjectSpec& object : scene.objects) {
-        if (object.kind == "sphere") {
+        if (!object.collides) {
+            continue;
+        }
+        const auto body = packed.find(object.mesh);
+        if (object.kind != "sphere" && body != packed.end()) {
+            add_body(object, body->second.spheres);
+        } else if (object.kind == "sphere") {
             const glm::vec4 whole(0, 0, 0, static_cast<float>(object.radius_m));
             add_body(object, {&whole, 1});
         }
@@ -94,15 +101,11 @@ void Colliders::add_body(const scene::ObjectSpec& object, std::span<const glm::v
 }
 
 glm::dmat4 Colliders::frame(const Body& body, double time_s) const {
-    scene::Pose pose;
-    pose.position = body.object.position;
-    if (!body.object.path.empty()) {
-        pose = scene::sample_path(paths_.at(body.object.path), time_s);
-    }
+    scene::Pose pose = scene::object_pose(body.object, paths_, time_s);
     if (pose.agl) {
         pose.position.y += ground_(pose.position.x, pose.position.z);
     }
-    const double yaw = (pose.yaw_deg + body.object.yaw_deg) * kDegree;
+    const double yaw = pose.yaw_deg * kDegree;
     return glm::dmat4(glm::dvec4(std::cos(yaw), 0, std::sin(yaw), 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(-std::sin(yaw), 0, std::cos(yaw), 0),
                       glm::dvec4(pose.position, 1));
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "blades/blade_twin.h"
 #include "blades/pages.h"
+#include "scene/mesh.h"
 #include "scene/scene.h"
 
 namespace sward::blades {
@@ -34,8 +36,9 @@ class Colliders {
 public:
     using Ground = std::function<double(double x, double z)>; ///< height above the datum
 
-    /// Takes the scene's objects of kind sphere. Throws base::Error(kBadInput), naming the scene's file, for one without a radius or place.
-    Colliders(const scene::Scene& scene, Ground ground);
+    /// Takes the scene's objects that grass feels: spheres, and meshes packed with spheres (`packed`, by the scene's name of the mesh). Throws
+    /// base::Error(kBadInput), naming the scene's file, for one without a radius or place.
+    Colliders(const scene::Scene& scene, const std::map<std::filesystem::path, scene::SphereSet>& packed, Ground ground);
 
     /// Spheres that move and turn with an object of the scene: x (right), y (up), z (back) and radius in its own frame (m). Throws
     /// likewise.

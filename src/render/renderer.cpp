@@ -46,7 +46,7 @@ Renderer::Impl::Impl(World inputs)
       wind(world.scene.wind, response,
            std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), far_textures(world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
-      colliders(world.scene, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
+      colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
     if (!world.surface.triangles.empty()) {
         mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene);
         mean_blade_width_m = mesh_ground->mean_blade_width_m();

@@ -43,8 +43,9 @@ class NearPhysics : public GlTest {
 protected:
     NearPhysics() : world_(flat_field(kGround_m), 0, even_mask(1), kEye) {}
 
+    std::map<std::filesystem::path, scene::SphereSet> packed_;
     [[nodiscard]] blades::Colliders colliders(const scene::Scene& scene) const {
-        return {scene, [](double, double) { return kGround_m; }};
+        return {scene, packed_, [](double, double) { return kGround_m; }};
     }
     [[nodiscard]] Simulation simulation(double radius_m = 3, std::size_t bytes = 64ull << 20) const {
         return Simulation(world_.set, world_.frame.wind.mean.w, {{radius_m, bytes}, kStep_s});
@@ -93,6 +94,24 @@ protected:
 
     SmallWorld world_;
 };
+
+TEST_F(NearPhysics, PackedMeshesTurnWithTheirObjects) {
+    packed_["barn.glb"].spheres = {{1, 0.3f, -2, 0.5f}, {0, 1, 0, 0.25f}};
+    scene::Scene scene;
+    scene::ObjectSpec barn;
+    barn.kind = "mesh";
+    barn.mesh = "barn.glb";
+    barn.position = {10, 0, 20};
+    barn.yaw_deg = 90; // its front, -z, looks east
+    scene.objects = {barn};
+    barn.collides = false;
+    scene.objects.push_back(barn);
+    const auto spheres = colliders(scene).at(1, kStep_s);
+    ASSERT_EQ(spheres.size(), 2u);
+    EXPECT_NEAR(glm::distance(spheres[0].centre, glm::dvec3(12, kGround_m + 0.3, 21)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(spheres[1].before, glm::dvec3(10, kGround_m + 1, 20)), 0, 1e-6);
+    EXPECT_EQ(spheres[1].radius_m, 0.25);
+}
 
 TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
     wind::Wind wind(SmallWorld::breeze(), 0.1);
