@@ -11,6 +11,11 @@ flat in vec3 sort; // tint of the ground, species, share of the simulated pose
 in vec4 haze;
 
 void main() {
+    // A triangle seen so nearly edge-on that it has no area in pixels may leave nothing to interpolate: infinities, and NaN of them.
+    vec3 values = world + tangent + normal;
+    if (!(dot(values, values) < 1e12)) {
+        discard;
+    }
     if (frame.mode.x != kHandoverOff &&
         !handover_near(own.x, own.z, frame.handover.xy, pixel_threshold(ivec2(gl_FragCoord.xy)), frame.mode.x)) {
         discard;
