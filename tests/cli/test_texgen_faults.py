@@ -71,7 +71,8 @@ class Signals(FaultCase):
                         self.assert_done(self.texgen("verify", "out/set", "-q"))
                         shutil.rmtree(self.out / "set")
                         continue
-                    self.assertEqual(child.returncode, code)
+                    # A signal that comes before main() ends any program by itself.
+                    self.assertIn(child.returncode, (code, -number) if share == 0.1 else (code,))
                     self.assertEqual(sward_cli.snapshot(self.dir), before)
         old = self.old_set()
         child = self.start()
