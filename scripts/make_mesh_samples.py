@@ -426,9 +426,12 @@ def mound():
 # --- The published near scenes ----------------------------------------------------------------------------------------------------
 
 def hills_height(x, z):
-    """Rounded hills of some 5 m, between which one cannot see far; level where the balls roll and the body lies."""
-    y = 2.6 * math.sin(0.26 * x + 0.5) * math.cos(0.23 * z) + 1.3 * math.sin(0.47 * x - 0.35 * z + 1.0) + 0.25 * math.sin(1.1 * x) * math.sin(0.9 * z + 2.0)
-    return y * min(1.0, math.hypot(x, z - 6) / 12) ** 1.5
+    """A hollow among rounded hills of some 4 m: level where the balls roll and the body lies, beyond its rim one cannot see far."""
+    y = 1.5 * math.sin(0.26 * x + 0.5) * math.cos(0.23 * z) + 0.8 * math.sin(0.47 * x - 0.35 * z + 1.0) + 0.2 * math.sin(1.1 * x) * math.sin(0.9 * z + 2.0)
+    out = math.hypot(x - 0.5, z - 6.5)
+    rise = max(0.0, min(1.0, (out - 4.0) / 5.5))
+    rim = 3.3 * rise * rise * (3 - 2 * rise) * math.exp(-max(out - 9.5, 0.0) ** 2 / 22)
+    return y * min(1.0, out / 12) ** 1.5 + rim * (1 + 0.22 * math.sin(2.0 * math.atan2(z - 6.5, x - 0.5) + 0.8))
 
 
 def grid(half, cells, height):
