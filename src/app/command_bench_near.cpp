@@ -18,9 +18,10 @@
 namespace sward::app {
 namespace {
 
-constexpr int kFrames = 3; // that count, after one that builds caches
+constexpr int kFrames = 2; // that count, after one that builds caches
 constexpr int kTurns = 5;  // of each number of blades
 constexpr double kStep_s = 1.0 / 60;
+constexpr double kRotorStarted_s = 2;     // the helicopter's wind has come down and spread by then
 constexpr std::size_t kPool = 192u << 20; // states of 12 million blades
 constexpr blades::CullTests kAllTests{true, true, true, true}, kNoTests{false, false, false, false};
 // Bytes that a step moves: a record read, a state read and written; a patch's page, its own state twice, its lists and its number twice.
@@ -38,9 +39,10 @@ constexpr Published kHelicopter{1e3 / 56, 1.421, kNone, 6.817, 5.471, 165135, 33
 /// A scene that is drawn again and again.
 class Stage {
 public:
-    Stage(scene::Scene scene, const Options& options, const char* camera = "default") : renderer_(load_world(scene)) {
-        settings_.width = options.bench_width;
-        settings_.height = options.bench_height;
+    /// `start_s`: of the first frame.
+    Stage(scene::Scene scene, const Options& options, const char* camera = "default", double start_s = 0)
+        : renderer_(load_world(scene)), size_(options.bench_width, options.bench_height), frame_(static_cast<int>(std::lround(start_s / kStep_s))) {
+        small(false);
         settings_.simulated_radius_m = 1e6;
         settings_.most_simulated_bytes = kPool;
         settings_.wait_in_passes = true;
@@ -64,11 +66,11 @@ public:
         ms["visibility"] = ms["depth pyramid"] + ms["cull blades"];
         return ms;
     }
-    /// A small picture from now on: for what is measured before the drawing.
-    void leave_undrawn() {
-        settings_.width = 64;
-        settings_.height = 48;
-        settings_.samples = 1;
+    /// A small picture from now on, or one of the asked size: for what does not hang on the drawing.
+    void small(bool is_small) {
+        settings_.width = is_small ? 64 : size_.x;
+        settings_.height = is_small ? 48 : size_.y;
+        settings_.samples = is_small ? 1 : 4;
     }
     render::Renderer& renderer() { return renderer_; }
     [[nodiscard]] double time_s() const { return view_.time_s; }
@@ -76,10 +78,11 @@ public:
 
 private:
     render::Renderer renderer_;
+    glm::ivec2 size_;
     render::FrameSettings settings_;
     render::View view_;
     render::FrameStats stats_;
-    int frame_ = 0;
+    int frame_;
 };
 
 /// Times of frames by pass.
@@ -131,31 +134,41 @@ void each_alone(Stage& stage, const Table& table, const Published& published) {
     };
     for (const One& one : {One{"orientation", {false, true, false, false}, published.orientation}, One{"frustum", {true, false, false, false}, published.frustum},
                            One{"distance", {false, false, true, false}, published.distance}, One{"occlusion", {false, false, false, true}, published.occlusion}}) {
+        stage.small(!one.tests.occlusion); // which alone sees pixels
         stage.draw(one.tests, false);
         table.count("test alone", one.name, static_cast<double>(culled(stage.stats())), one.published);
     }
 }
 
-/// The columns of J9 with all tests on and off. `still`: the same scene without colliders, stepped in turns with it; may be null.
-void table_of(Stage& stage, Stage* still, const Table& table, const Published& published) {
-    stage.draw(kAllTests, true);
-    if (still)
-        still->draw(kAllTests, true);
-    Times on, none, off;
-    for (int i = 0; i < kFrames; ++i) {
-        on.add(stage.draw(kAllTests, true));
-        if (still)
-            none.add(still->draw(kAllTests, true));
+/// Steps of a scene and of the same without colliders, in turns.
+void physics_of(Stage& stage, Stage& still, const Table& table, const Published& published) {
+    Times some, none;
+    for (Stage* one : {&stage, &still}) {
+        one->small(true);
+        one->draw(kAllTests, true);
     }
+    for (int i = 0; i < 2 * kTurns; ++i) {
+        some.add(stage.draw(kAllTests, true));
+        none.add(still.draw(kAllTests, true));
+    }
+    stage.small(false);
+    table.time("with spheres", "physics", some.of("physics"), published.physics_ms, stage.stats().physics_bytes);
+    table.time("no spheres", "physics", none.of("physics"), published.physics_none_ms, still.stats().physics_bytes);
+    table.count("with spheres", "spheres a patch", static_cast<double>(stage.stats().sphere_pairs) * CULL_GROUP / static_cast<double>(stage.stats().blades_simulated));
+    table.report.checks.push_back({"near: physics with " + table.scene + "'s spheres over none", some.of("physics").min / none.of("physics").min, 1.5});
+}
+
+/// The columns of J9 with all tests on and off.
+void table_of(Stage& stage, const Table& table, const Published& published) {
+    stage.draw(kAllTests, true);
+    Times on, off;
+    for (int i = 0; i < kFrames; ++i)
+        on.add(stage.draw(kAllTests, true));
     const render::FrameStats stats = stage.stats();
     off.add(stage.draw(kNoTests, false));
     const render::FrameStats off_stats = stage.stats();
     table.time("culling on", "frame", on.of("frame"), published.frame_ms, stats.gpu_bytes);
     table.time("culling on", "physics", on.of("physics"), published.physics_ms, stats.physics_bytes);
-    if (still) {
-        table.time("no spheres", "physics", none.of("physics"), published.physics_none_ms, still->stats().physics_bytes);
-        table.report.checks.push_back({"near: physics with " + table.scene + "'s spheres over none", on.of("physics").min / none.of("physics").min, 1.5});
-    }
     table.time("culling on", "visibility", on.of("visibility"), published.visibility_ms);
     table.time("culling on", "drawing", on.of("draw blades"), published.drawing_ms);
     table.count("culling on", "blades", static_cast<double>(stats.blades_simulated));
@@ -179,6 +192,7 @@ void ten_thousand(Stage& stage, const Table& table) {
     for (int n = 0; n < 10'000; ++n)
         spheres.push_back({{0.12 * (n / 4 % 50) - 3, 0.1 + 0.12 * (n % 4), 0.12 * (n / 200) + 3}, 0.1});
     stage.renderer().set_colliders(std::move(spheres), stage.time_s());
+    stage.small(true);
     stage.draw(kAllTests, true);
     Times times;
     times.add(stage.draw(kAllTests, true));
@@ -193,9 +207,11 @@ void nature(BenchReport& report, const Options& options) {
     scene.objects.clear();
     Stage still(std::move(scene), options);
     const Table table{report, "nature"};
-    table_of(stage, &still, table, kNature);
+    physics_of(stage, still, table, kNature);
+    table_of(stage, table, kNature);
     const render::FrameStats& stats = stage.stats();
     report.checks.push_back({"near: nature, bytes held a blade", static_cast<double>(held_bytes(stats)) / static_cast<double>(stats.blades_simulated), 96});
+    stage.small(false);
     stage.draw(kAllTests, false);
     report.checks.push_back({"near: nature, drawn of visible patches' blades", static_cast<double>(stats.blades_drawn) / static_cast<double>(stats.blades_considered), 0.3});
     ten_thousand(stage, table);
@@ -214,7 +230,7 @@ void scaling(BenchReport& report, const Options& options) {
         scene.objects.clear();
         scene.surface_grass.density_per_m2 *= count / counts.front();
         stages.push_back(std::make_unique<Stage>(std::move(scene), options, "above"));
-        stages.back()->leave_undrawn();
+        stages.back()->small(true);
         stages.back()->draw(kAllTests, true);
     }
     for (int i = 0; i < kTurns; ++i)
@@ -244,8 +260,8 @@ void scaling(BenchReport& report, const Options& options) {
 void bench_near(BenchReport& report, const Options& options) {
     nature(report, options);
     {
-        Stage stage(near_scene("helicopter"), options);
-        table_of(stage, nullptr, {report, "helicopter"}, kHelicopter);
+        Stage stage(near_scene("helicopter"), options, "default", kRotorStarted_s);
+        table_of(stage, {report, "helicopter"}, kHelicopter);
     }
     scaling(report, options);
 }
