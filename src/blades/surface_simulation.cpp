@@ -155,8 +155,11 @@ void SurfaceSimulation::page(const Inputs& inputs) {
 
 SphereLists SurfaceSimulation::meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const {
     return sphere_lists(cluster_of_.size(), spheres, anchor, [&](const MovingSphere& sphere, const Found& found) {
+        const double reach = sphere.radius_m + glm::distance(sphere.centre, sphere.before);
         tree_.each(swept_box(sphere, 0), [&](std::uint32_t cluster) { // a cluster's box holds the reach of its blades
-            if (slot_of_[cluster] > 0) {
+            const glm::dvec3 low(clusters_[cluster].low), high(clusters_[cluster].high);
+            const bool touches = glm::distance(glm::clamp(sphere.centre, low, high), sphere.centre) <= reach; // not at its corners alone
+            if (touches && slot_of_[cluster] > 0) {
                 found(slot_of_[cluster] - 1);
             }
         });
