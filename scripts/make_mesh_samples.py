@@ -423,6 +423,54 @@ def mound():
     return mesh
 
 
+# --- The published near scenes ----------------------------------------------------------------------------------------------------
+
+def hills_height(x, z):
+    """A hollow among rounded hills of some 4 m: level where the balls roll and the body lies, beyond its rim one cannot see far."""
+    y = 1.5 * math.sin(0.26 * x + 0.5) * math.cos(0.23 * z) + 0.8 * math.sin(0.47 * x - 0.35 * z + 1.0) + 0.2 * math.sin(1.1 * x) * math.sin(0.9 * z + 2.0)
+    out = math.hypot(x - 0.5, z - 6.5)
+    rise = max(0.0, min(1.0, (out - 4.0) / 5.5))
+    rim = 3.3 * rise * rise * (3 - 2 * rise) * math.exp(-max(out - 9.5, 0.0) ** 2 / 22)
+    return y * min(1.0, out / 12) ** 1.5 + rim * (1 + 0.22 * math.sin(2.0 * math.atan2(z - 6.5, x - 0.5) + 0.8))
+
+
+def grid(half, cells, height):
+    """A square of ground, its middle at 0."""
+    mesh = Mesh()
+    for j in range(cells + 1):
+        for i in range(cells + 1):
+            x, z = 2 * half * i / cells - half, 2 * half * j / cells - half
+            mesh.vertices.append((x, height(x, z), z))
+    for j in range(cells):
+        for i in range(cells):
+            a = j * (cells + 1) + i
+            b = a + cells + 1
+            mesh.triangles += [(a, b, a + 1), (a + 1, b, b + 1)]
+    return mesh
+
+
+def sleeper_distance(p):
+    """Somebody of 2.4 m who lies on his side in the grass, knees drawn up, head to the west."""
+    d = ellipsoid(p, (-0.30, 0.30, 0.0), (0.48, 0.29, 0.26))
+    d = smooth_min(d, ellipsoid(p, (0.28, 0.27, 0.02), (0.34, 0.26, 0.25)), 0.2)
+    d = smooth_min(d, ellipsoid(p, (-1.00, 0.22, 0.02), (0.22, 0.19, 0.17)), 0.10)
+    for a, b, ra, rb in [((0.35, 0.17, 0.1), (0.62, 0.15, 0.62), 0.17, 0.12), ((0.62, 0.15, 0.62), (1.25, 0.12, 0.42), 0.11, 0.08),
+                         ((0.35, 0.38, 0.1), (0.80, 0.36, 0.55), 0.17, 0.12), ((0.80, 0.36, 0.55), (1.30, 0.16, 0.20), 0.11, 0.08),
+                         ((-0.62, 0.45, 0.1), (-0.42, 0.32, 0.48), 0.10, 0.08), ((-0.42, 0.32, 0.48), (-0.85, 0.14, 0.52), 0.08, 0.06),
+                         ((-0.65, 0.14, 0.12), (-0.95, 0.10, 0.44), 0.10, 0.07), ((1.25, 0.12, 0.42), (1.32, 0.12, 0.60), 0.08, 0.05)]:
+        d = smooth_min(d, capsule(p, a, b, ra, rb), 0.09)
+    return d
+
+
+def sleeper():
+    cell = 0.04
+    return surface_nets(sleeper_distance, (-1.36, -0.08, -0.44), cell, (73, 22, 34))
+
+
+def pad_height(x, z):
+    return 0.5 * math.sin(0.11 * x + 0.4) * math.sin(0.13 * z) + 0.12 * math.sin(0.5 * x - 0.3 * z)
+
+
 def main():
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
     terrains = root / "terrains"
@@ -434,6 +482,9 @@ def main():
     roof().write(terrains / "roof" / "house.glb")
     for name, make in (("walls", walls), ("joinery", joinery), ("panes", panes), ("chimney", chimney)):
         make().write(terrains / "roof" / f"{name}.glb")
+    grid(20, 96, hills_height).write(terrains / "near" / "nature" / "hills.glb")
+    sleeper().write(terrains / "near" / "nature" / "sleeper.glb")
+    grid(30, 72, pad_height).write(terrains / "near" / "helicopter" / "field.glb")
 
 
 if __name__ == "__main__":

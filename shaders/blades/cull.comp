@@ -2,6 +2,8 @@
 // In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
 // SURFACE: an item is a cluster of a mesh's blades: the end of its run, its first blade.
 #include "lib/frame.glsl" // here: a file is expanded once, in whichever branch names it first
+#include "shared/bend.h"
+#include "shared/blade.h"
 #ifdef SURFACE
 #include "lib/surface_place.glsl"
 #else

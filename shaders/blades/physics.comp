@@ -40,8 +40,8 @@ void collide(BladeBody body, vec3 root, uvec2 list, inout vec3 v1, inout vec3 v2
 }
 
 // Steps the blade; true while it moves or remembers.
-bool step_blade(BladeRecord blade, vec3 root, vec2 wind, uvec2 list, uint at) {
-    BladeBody body = set_blade_body(rules, blade, root);
+bool step_blade(PhysicsRecord blade, vec3 root, vec2 wind, uvec2 list, uint at) {
+    BladeBody body = physics_body(blade, root);
     vec4 state = states[at];
     if (!blade_moves(body)) {
         states[at] = vec4(0.0);
@@ -69,18 +69,17 @@ void main() {
     }
     barrier();
     if (within < uint(page.run.y)) {
-        BladeRecord blade = records[uint(page.run.x) + within];
-        vec2 xz = page.place.xy + blade.root.xy;
-        vec2 wind = wind_of(step_wind, xz);
+        PhysicsRecord blade = records[uint(page.run.x) + within];
+        vec3 root = physics_root(page, blade, list.y > 0u || rules.memory.w > 0.0);
+        vec2 wind = wind_of(step_wind, root.xz);
         uint at = patch_id * uint(CULL_GROUP) + lane;
         bool moves = true;
         if (status == kPatchNew) {
-            states[at] = grouped_state(set_blade_body(rules, blade, vec3(0.0)), wind, rules.time.z);
+            BladeBody body = physics_body(blade, vec3(0.0));
+            states[at] = grouped_state(body, wind, rules.time.z > 0.0 ? rules.time.z : body.response);
         }
         if (status != kPatchNew || (list.y > 0u && rules.time.x > 0.0)) { // in a run-up a collider finds blades that have not begun
-            // The root's height matters to colliders and to a centre of gravity alone.
-            bool high = list.y > 0u || rules.memory.w > 0.0;
-            moves = step_blade(blade, vec3(xz.x, high ? ground_at(xz) : 0.0, xz.y), wind, list, at);
+            moves = step_blade(blade, root, wind, list, at);
         }
         if (moves) {
             moving = 1u; // by any lane

@@ -1,17 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the two passes of the blades' physics share.
-#include "lib/ground.glsl"
+// What the two passes of the blades' physics share. SURFACE: of a mesh's blades, a page a cluster.
 #include "lib/wind_field.glsl"
 #include "shared/blade_pages.h"
 #include "shared/blade_physics.h"
+#ifdef SURFACE
+#include "shared/surface_blade.h"
+#else
+#include "lib/ground.glsl"
+#endif
 
 layout(std140, binding = BIND_PHYSICS) uniform PhysicsBlock {
     BladeStep rules;
     WindField step_wind; // at the step's end
 };
-layout(std430, binding = BIND_PHYSICS_BLADES) readonly buffer Records { BladeRecord records[]; };
+#ifdef SURFACE
+#define PhysicsRecord SurfaceBlade
+#else
+#define PhysicsRecord BladeRecord
+#endif
+layout(std430, binding = BIND_PHYSICS_BLADES) readonly buffer Records { PhysicsRecord records[]; };
 layout(std430, binding = BIND_PHYSICS_PAGES) readonly buffer Pages { BladePage pages[]; };
 layout(std430, binding = BIND_PHYSICS_PATCHES) buffer Patches { PatchState patches[]; };
 layout(std430, binding = BIND_PHYSICS_LISTS) readonly buffer Lists { uint sphere_lists[]; }; // first, count of each patch; then numbers
 
 uniform int patches_a_page;
+uniform int buffer_number; // of the records that are bound: BladePage::run.z
+
+// Root of a blade of a page, anchor-relative. The root's height matters to colliders and to a centre of gravity alone: without `high` it
+// may be 0.
+vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
+#ifdef SURFACE
+    return page.place.xyz + blade.root_direction.xyz;
+#else
+    vec2 xz = page.place.xy + blade.root.xy;
+    return vec3(xz.x, high ? ground_at(xz) : 0.0, xz.y);
+#endif
+}
+
+BladeBody physics_body(PhysicsRecord blade, vec3 root) {
+#ifdef SURFACE
+    return surface_blade_body(rules, blade, root);
+#else
+    return set_blade_body(rules, blade, root);
+#endif
+}

@@ -16,6 +16,10 @@ void main() {
     if (patch_id >= uint(patch_count)) {
         return;
     }
+    BladePage page = pages[patch_id / uint(patches_a_page)];
+    if (page.run.z != buffer_number) {
+        return;
+    }
     PatchState state = patches[patch_id];
     bool met = sphere_lists[2u * patch_id + 1u] > 0u;
     bool up = met && state.status != kPatchFree;
@@ -26,9 +30,8 @@ void main() {
     } else if (state.status == kPatchAwake) {
         up = true;
     } else if (state.status == kPatchAsleep && !met) {
-        BladePage page = pages[patch_id / uint(patches_a_page)];
-        vec2 xz = page.place.xy + records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP].root.xy;
-        up = distance(wind_of(step_wind, xz), state.wind) > kStillWind_ms;
+        vec3 root = physics_root(page, records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP], false);
+        up = distance(wind_of(step_wind, root.xz), state.wind) > kStillWind_ms;
     }
     if (up) {
         // The order varies from run to run; patches know nothing of each other.

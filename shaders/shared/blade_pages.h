@@ -7,10 +7,10 @@
 
 SHARED_BEGIN
 
-// A slot of the pool. 32 bytes.
+// A slot of the pool. 32 bytes. On a mesh a page is one cluster of it.
 struct BladePage {
-    vec4 place;  // x, z of the tile's corner, anchor-relative (m); unused
-    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; unused
+    vec4 place;  // x, z of the tile's corner, anchor-relative (m); of a mesh: x, y, z of its origin
+    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; number of the buffer of records
 };
 
 SHARED_CONST uint kPatchFree = 0u;

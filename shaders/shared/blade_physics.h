@@ -14,7 +14,7 @@ struct BladeStep {
     vec4 down;    // direction of gravity, unit; its strength (m/s^2)
     vec4 centre;  // anchor-relative place that draws the blades (a planet's middle); its strength (m/s^2)
     vec4 memory;  // loss of eta (1/s); eta that a push by the blade's own length brings; its bound; share of `centre`, 0..1
-    vec4 time;    // step (s), 0: new blades are set up and none moves; canopy (m); response of the grouped pose, 1 / (m/s); 1 in
+    vec4 time;    // step (s), 0: new blades are set up and none moves; canopy (m); response of the grouped pose, 1 / (m/s), 0: each blade's own; 1 in
                   // a run-up, where blades that nothing has pushed yet are left alone
 };
 #ifdef __cplusplus
@@ -248,15 +248,24 @@ SHARED_FN vec3 checked_wind(vec3 wind) {
     return dot(wind, wind) < 1e6f ? wind : vec3(0.0f, 0.0f, 0.0f);
 }
 
-// State of a blade that stands in the grouped pose (W3): how one begins.
-SHARED_FN vec4 grouped_state(BladeBody body, vec2 wind, float response) {
+// State of a blade that stands in the grouped pose (W3): how one begins. `wind` (m/s) in space; what of it goes along the ground bends.
+SHARED_FN vec4 leaning_state(BladeBody body, vec3 wind, float response) {
     float stem = body.stem_canopy.x;
     if (stem < kLeastStem_m) {
         return vec4(0.0f, 0.0f, 0.0f, 0.0f);
     }
-    vec3 v2 = body.calm2 + grouped_offset(body.calm2.y, vec2(stem, max(body.stem_canopy.y, stem)), wind, response);
+    vec3 along = wind - body.up * dot(wind, body.up);
+    float speed = length(along);
+    vec3 v2 = body.calm2;
+    if (speed >= 1e-4f) {
+        vec3 bend = grouped_offset(dot(v2, body.up), vec2(stem, max(body.stem_canopy.y, stem)), vec2(speed, 0.0f), response);
+        v2 = v2 + along * (bend.x / speed) + body.up * bend.y;
+    }
     settle_blade(body, v2);
     return vec4(v2 - body.calm2, 0.0f);
+}
+SHARED_FN vec4 grouped_state(BladeBody body, vec2 wind, float response) {
+    return leaning_state(body, vec3(wind.x, 0.0f, wind.y), response);
 }
 
 // Control points that a state stands for: what is drawn.

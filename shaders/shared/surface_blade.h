@@ -3,8 +3,8 @@
 // the cull pass and the tessellator read the same functions.
 #ifndef SWARD_SHARED_SURFACE_BLADE_H
 #define SWARD_SHARED_SURFACE_BLADE_H
+#include "shared/blade_physics.h"
 #include "shared/hash.h"
-#include "shared/types.h"
 
 SHARED_BEGIN
 
@@ -36,35 +36,53 @@ SHARED_FN vec2 surface_rank_seed(uint index) {
     return (vec2(float(h & 255u), float((h >> 8u) & 255u)) + 0.5f) / 256.0f;
 }
 
-// Length of a Bezier whose root is 0: Gravesen's estimate (J5.3) of each half. Within 1 % however strong the bend; of the whole at once,
-// as printed, it is 4.5 % off where a blade lies flat.
-SHARED_FN float surface_curve_length(vec3 v1, vec3 v2) {
-    vec3 middle = 0.5f * v1 + 0.25f * v2;
-    float chords = length(middle) + length(v2 - middle);
-    float polygon = 0.5f * (length(v1) + length(v2) + length(v2 - v1));
-    return (2.0f * chords + polygon) / 3.0f;
-}
-
-// J5 for a blade whose root is 0: the tip above the root's plane, v1 from it, the length kept.
-SHARED_FN void surface_validate(SHARED_OUT(vec3) v1, SHARED_INOUT(vec3) v2, vec3 up, float height) {
-    v2 = v2 - up * min(dot(up, v2), 0.0f);
-    float over = length(v2 - up * dot(up, v2)) / height;
-    v1 = up * (height * max(1.0f - over, 0.05f * max(over, 1.0f)));
-    float k = height / max(surface_curve_length(v1, v2), 1e-6f);
-    v1 = v1 * k;
-    v2 = v2 * k;
+// A blade in J1's pose, of this length: what J5 needs.
+SHARED_FN BladeBody upright_body(vec3 up, float height) {
+    BladeBody body;
+    body.up = up;
+    body.calm1 = up * height;
+    body.calm2 = up * height;
+    body.gravity = vec3(0.0f, 0.0f, 0.0f);
+    body.stem_canopy = vec2(height, height);
+    body.recovery = 0.0f;
+    body.response = 0.0f;
+    return body;
 }
 
 // Where J4's recovery and gravity balance, J5 kept: a blade in the calm. `pull`: gravity over stiffness (as a shift, m). J1's pose is
 // `height * up`. Eight half steps leave less than 1 % of the way.
 SHARED_FN void surface_settle(SHARED_OUT(vec3) v1, SHARED_OUT(vec3) v2, vec3 up, float height, vec3 pull) {
-    v2 = up * height;
-    v1 = v2;
-    vec3 wanted = up * height + pull;
+    BladeBody body = upright_body(up, height);
+    v2 = body.calm2;
+    v1 = body.calm1;
+    vec3 wanted = body.calm2 + pull;
     for (int i = 0; i < 8; ++i) {
         v2 = v2 + 0.5f * (wanted - v2);
-        surface_validate(v1, v2, up, height);
+        v1 = settle_blade(body, v2);
     }
+}
+
+// What the physics needs of a mesh's blade, but for its gravity: its pose. `canopy`: greatest length of a blade there (m).
+SHARED_FN BladeBody surface_blade_shape(SurfaceBlade blade, float canopy) {
+    BladeBody body;
+    body.up = vec3(blade.up_stiffness.x, blade.up_stiffness.y, blade.up_stiffness.z);
+    body.calm1 = vec3(blade.v1_height.x, blade.v1_height.y, blade.v1_height.z);
+    body.calm2 = vec3(blade.v2_width.x, blade.v2_width.y, blade.v2_width.z);
+    body.gravity = vec3(0.0f, 0.0f, 0.0f);
+    body.stem_canopy = vec2(bezier_length(body.calm1, body.calm2), canopy);
+    body.recovery = blade_recovery(blade.up_stiffness.w);
+    body.response = blade_response(blade.up_stiffness.w);
+    return body;
+}
+
+// The whole body. Its front is square to its width, as it has grown; the more its calm tip is off its root's normal, the more it sags.
+SHARED_FN BladeBody surface_blade_body(BladeStep rules, SurfaceBlade blade, vec3 root) {
+    BladeBody body = surface_blade_shape(blade, rules.time.y);
+    vec3 front = cross(body.up, surface_width_direction(body.up, blade.root_direction.w));
+    float off = min(length(body.calm2 - body.up * body.stem_canopy.x) / max(body.stem_canopy.x, 1e-6f), 1.0f);
+    float sag = 0.03f + 0.05f * off; // of its length, as a set's blade by its droop
+    body.gravity = blade_gravity(rules, root, front, body.recovery * body.stem_canopy.x * sag / kStandardGravity);
+    return body;
 }
 
 // J4's gravity (m): down, and a quarter of it to the front, square to the width.

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/options.h"
+
 namespace sward::app {
 
 /// Least, middle and greatest of some measurements.
@@ -19,6 +21,13 @@ struct BenchRow {
     std::uint64_t bytes = 0; ///< of GPU memory that the variant takes
 };
 
+/// A count or share, beside what the paper has for it.
+struct BenchFigure {
+    std::string scene, variant, name;
+    double value = 0;
+    double published = -1; ///< below 0: none
+};
+
 /// A figure that must not exceed its limit.
 struct BenchCheck {
     std::string name;
@@ -28,11 +37,16 @@ struct BenchCheck {
 
 struct BenchReport {
     std::vector<BenchRow> rows;
+    std::vector<BenchFigure> figures;
     std::vector<BenchCheck> checks;
 };
 
 /// Suite `wind`: a step of the fluid at 1000 x 1000 beside the published scheme, in turns, and what divergence each leaves.
 /// Needs a current context.
 void bench_wind(BenchReport& report);
+
+/// Suite `near`: the published scenes with their tables (J9), physics and culling by the number of blades. Throws Error as loading a
+/// scene does. Needs a current context.
+void bench_near(BenchReport& report, const Options& options);
 
 } // namespace sward::app

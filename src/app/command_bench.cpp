@@ -22,17 +22,28 @@ void run_bench(const Options& options) {
         base::require_writable(options.bench_json);
     const gl::HeadlessContext context;
     BenchReport report;
-    bench_wind(report);
+    if (options.bench_suite != "near")
+        bench_wind(report);
+    if (options.bench_suite != "wind")
+        bench_near(report, options);
 
     using Json = nlohmann::ordered_json;
-    Json rows = Json::array(), checks = Json::array();
+    Json rows = Json::array(), figures = Json::array(), checks = Json::array();
     for (const BenchRow& row : report.rows) {
         rows.push_back({{"scene", row.scene},
                         {"variant", row.variant},
                         {"pass", row.pass},
                         {"ms", {{"min", row.ms.min}, {"median", row.ms.median}, {"max", row.ms.max}}},
                         {"bytes", row.bytes}});
-        fmt::print("{:<24} {:<10} {:<8} {:9.3f} ms ({:.3f} to {:.3f})\n", row.scene, row.variant, row.pass, row.ms.median, row.ms.min, row.ms.max);
+        fmt::print("{:<24} {:<16} {:<16} {:9.3f} ms ({:.3f} to {:.3f})\n", row.scene, row.variant, row.pass, row.ms.median, row.ms.min, row.ms.max);
+    }
+    for (const BenchFigure& figure : report.figures) {
+        Json json = {{"scene", figure.scene}, {"variant", figure.variant}, {"name", figure.name}, {"value", figure.value}};
+        if (figure.published >= 0)
+            json["published"] = figure.published;
+        figures.push_back(std::move(json));
+        fmt::print("{:<24} {:<16} {:<26} {:12.6g}{}\n", figure.scene, figure.variant, figure.name, figure.value,
+                   figure.published < 0 ? "" : fmt::format(" (published {:g})", figure.published));
     }
     bool all = true;
     for (const BenchCheck& check : report.checks) {
@@ -40,7 +51,7 @@ void run_bench(const Options& options) {
         checks.push_back({{"name", check.name}, {"value", check.value}, {"limit", check.limit}, {"ok", check.ok()}});
         fmt::print("{:<44} {:9.5f}, limit {} {}\n", check.name, check.value, check.limit, check.ok() ? "ok" : "MISSED");
     }
-    const Json json = {{"gpu", gl::context_info().renderer}, {"suite", options.bench_suite}, {"rows", rows}, {"checks", checks}};
+    const Json json = {{"gpu", gl::context_info().renderer}, {"suite", options.bench_suite}, {"rows", rows}, {"figures", figures}, {"checks", checks}};
     if (!options.bench_json.empty())
         base::write_file_atomic(options.bench_json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     if (!all)

@@ -35,7 +35,7 @@ constexpr std::array<std::pair<std::string_view, HandoverMode>, 4> kHandovers = 
 constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
     {{"1", 1}, {"2", 2}, {"4", 4}}};
 
-constexpr std::array<std::pair<std::string_view, const char*>, 1> kSuites = {{{"wind", "wind"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 3> kSuites = {{{"all", "all"}, {"near", "near"}, {"wind", "wind"}}};
 
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
@@ -206,9 +206,13 @@ void declare_wind(CLI::App& app, Options* o) {
 }
 
 void declare_bench(CLI::App& app, Options* o) {
-    declare(app, "SUITE", "wind", "what is measured; default wind",
+    declare(app, "SUITE", "all|near|wind", "what is measured; default all",
             [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
     declare_path(app, "--json", "FILE", "the figures as JSON", &o->bench_json);
+    declare(app, "--size", "WxH", "pixels of the near suite; default 512x384", [=](const std::string& text) {
+        std::tie(o->bench_width, o->bench_height) = parse_size("--size", text);
+    });
+    app.add_flag("--full", o->bench_full, "the near suite with seven million blades too: a gigabyte, minutes in software");
 }
 
 std::string one_line(std::string text) {

@@ -48,7 +48,9 @@ struct Options {
     int warm = 0;
 
     // bench
-    std::string bench_suite = "wind";
+    std::string bench_suite = "all"; ///< or wind, near
+    int bench_width = 512, bench_height = 384;
+    bool bench_full = false;
     std::filesystem::path bench_json; ///< empty: none
 
     // wind

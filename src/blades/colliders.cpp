@@ -25,15 +25,6 @@ void check_sphere(glm::dvec3 centre, double radius_m, const std::string& where) 
     }
 }
 
-struct Box {
-    glm::dvec3 low, high;
-};
-
-Box swept_box(const MovingSphere& sphere, double reach_m) {
-    const glm::dvec3 out(sphere.radius_m + reach_m);
-    return {glm::min(sphere.centre, sphere.before) - out, glm::max(sphere.centre, sphere.before) + out};
-}
-
 bool meets(const Box& box, glm::dvec2 low, glm::dvec2 high) {
     return box.low.x <= high.x && box.high.x >= low.x && box.low.z <= high.y && box.high.z >= low.y;
 }
@@ -143,9 +134,21 @@ std::vector<MovingSphere> Colliders::at(double time_s, double step_s) const {
     return out;
 }
 
+Box swept_box(const MovingSphere& sphere, double reach_m) {
+    const glm::dvec3 out(sphere.radius_m + reach_m);
+    return {glm::min(sphere.centre, sphere.before) - out, glm::max(sphere.centre, sphere.before) + out};
+}
+
 SphereLists sphere_lists(const Pages& pages, double side_m, double reach_m, std::span<const MovingSphere> spheres, glm::dvec3 anchor) {
-    SphereLists out;
     const std::size_t patches = pages.slots().size() * static_cast<std::size_t>(pages.order().patches_a_page);
+    return sphere_lists(patches, spheres, anchor, [&](const MovingSphere& sphere, const Found& found) {
+        each_patch(pages, side_m, swept_box(sphere, reach_m), found);
+    });
+}
+
+SphereLists sphere_lists(std::size_t patches, std::span<const MovingSphere> spheres, glm::dvec3 anchor,
+                         const std::function<void(const MovingSphere&, const Found&)>& meet) {
+    SphereLists out;
     out.lists.assign(2 * patches, 0);
     struct Pair {
         std::uint32_t patch, sphere;
@@ -154,7 +157,7 @@ SphereLists sphere_lists(const Pages& pages, double side_m, double reach_m, std:
     for (const MovingSphere& sphere : spheres) {
         const auto number = static_cast<std::uint32_t>(out.spheres.size());
         const std::size_t before = pairs.size();
-        each_patch(pages, side_m, swept_box(sphere, reach_m), [&](std::uint32_t patch) { pairs.push_back({patch, number}); });
+        meet(sphere, [&](std::uint32_t patch) { pairs.push_back({patch, number}); });
         if (pairs.size() > before) {
             out.spheres.push_back({glm::vec4(glm::vec3(sphere.centre - anchor), static_cast<float>(sphere.radius_m)),
                                    glm::vec4(glm::vec3(sphere.before - anchor), 0)});

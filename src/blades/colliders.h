@@ -77,6 +77,17 @@ struct SphereLists {
     std::uint64_t pairs = 0;           ///< of a patch and a sphere
 };
 
+struct Box {
+    glm::dvec3 low{0}, high{0};
+};
+/// What a sphere sweeps in a step, grown by `reach_m`.
+[[nodiscard]] Box swept_box(const MovingSphere& sphere, double reach_m);
+
+/// Lists for a pool of `patches`; `meet`(sphere, found) calls found(patch) for every patch that it may touch.
+using Found = std::function<void(std::uint32_t patch)>;
+[[nodiscard]] SphereLists sphere_lists(std::size_t patches, std::span<const MovingSphere> spheres, glm::dvec3 anchor,
+                                       const std::function<void(const MovingSphere&, const Found&)>& meet);
+
 /// `reach_m`: how far the blades of a patch get from their roots. `anchor`: world metres.
 [[nodiscard]] SphereLists sphere_lists(const Pages& pages, double side_m, double reach_m, std::span<const MovingSphere> spheres,
                                        glm::dvec3 anchor);

@@ -40,6 +40,8 @@ void CullPass::execute(std::size_t batch, const CullTests& tests) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
+std::uint64_t CullPass::bytes() const { return tiles_.bytes() + items_.bytes() + survivors_.bytes() + commands_.bytes() + total_.bytes(); }
+
 std::array<std::uint32_t, CULL_COUNTS> CullPass::counts() const {
     std::array<std::uint32_t, CULL_COUNTS> counts{};
     total_.read(counts.data(), sizeof(counts));

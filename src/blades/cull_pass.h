@@ -33,6 +33,7 @@ public:
     /// By CULL_*: blades kept, and those that each test took from what the tests before it left. Of all batches since the count
     /// began. Waits for the GPU.
     [[nodiscard]] std::array<std::uint32_t, CULL_COUNTS> counts() const;
+    [[nodiscard]] std::uint64_t bytes() const; ///< of its buffers
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
     [[nodiscard]] int command_count() const { return command_count_; }
     [[nodiscard]] const gl::Buffer& survivors() const { return survivors_; }

@@ -8,7 +8,7 @@
 namespace sward::blades {
 
 /// Draws culled blades by tessellation (J8), in their simulated pose (J4) or bent by W3, and moved to their shell pose in the band; those of a
-/// mesh (`surface`) as they rest. Before: frame constants, clipmap, the blades and a culled batch are bound.
+/// mesh (`surface`) likewise, with no band. Before: frame constants, clipmap, the blades and a culled batch are bound.
 class DrawPass {
 public:
     explicit DrawPass(bool aov, bool surface = false);

@@ -49,6 +49,16 @@ PhysicsPass::PhysicsPass(const grass::GrassSet& set, const Pages& pages)
     begin_count();
 }
 
+PhysicsPass::PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots)
+    : patches_a_page_(1), patch_count_(static_cast<int>(slots)), marked_(slots, false), records_of_mesh_(std::move(records)),
+      wake_("wake surface blades", {"blades/wake.comp"}, {"SURFACE"}), step_("step surface blades", {"blades/physics.comp"}, {"SURFACE"}),
+      pages_(slots * sizeof(shared::BladePage)), states_(slots * CULL_GROUP * sizeof(glm::vec4)), patches_(slots * sizeof(shared::PatchState)),
+      awake_(slots * sizeof(std::uint32_t)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
+    states_.clear_to_zero();
+    patches_.clear_to_zero();
+    begin_count();
+}
+
 void PhysicsPass::begin_count() {
     const Dispatch none;
     dispatch_.upload(&none, sizeof(none));
@@ -65,35 +75,42 @@ void PhysicsPass::place(const Pages& pages, double side_m, glm::dvec3 anchor) {
                                                      static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0, 0}};
         }
     }
+    place(std::move(placed), pages.fresh());
+}
+
+void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const int> fresh) {
     const auto same = [](const shared::BladePage& a, const shared::BladePage& b) { return a.place == b.place && a.run == b.run; };
     if (!std::equal(placed.begin(), placed.end(), placed_.begin(), placed_.end(), same)) {
         placed_ = std::move(placed);
         pages_.upload(placed_.data(), placed_.size() * sizeof(shared::BladePage));
     }
-    mark(pages);
-}
-
-void PhysicsPass::mark(const Pages& pages) {
-    const auto write = [&](int slot) {
-        const Pages::Page& page = pages.slots()[static_cast<std::size_t>(slot)];
-        const auto& boxes = pages.order().box_begin;
-        const auto variant = static_cast<std::size_t>(page.variant);
-        const std::size_t filled = page.used ? boxes[variant + 1] - boxes[variant] : 0;
-        std::vector<shared::PatchState> states(static_cast<std::size_t>(patches_a_page_), {{0, 0}, shared::kPatchFree, 0});
-        for (std::size_t n = 0; n < filled; ++n) {
-            states[n].status = shared::kPatchNew;
-        }
-        const std::size_t bytes = states.size() * sizeof(shared::PatchState);
-        patches_.upload(states.data(), bytes, static_cast<std::size_t>(slot) * bytes);
-        marked_[static_cast<std::size_t>(slot)] = page.used;
-    };
+    std::vector<bool> write(marked_.size(), false);
+    for (const int slot : fresh) {
+        write[static_cast<std::size_t>(slot)] = true;
+    }
     for (std::size_t slot = 0; slot < marked_.size(); ++slot) {
-        const Pages::Page& page = pages.slots()[slot];
-        const bool opened = std::find(pages.fresh().begin(), pages.fresh().end(), static_cast<int>(slot)) != pages.fresh().end();
-        if (opened || marked_[slot] != page.used) {
-            write(static_cast<int>(slot));
+        write[slot] = write[slot] || marked_[slot] != (placed_[slot].run.y > 0);
+    }
+    for (std::size_t first = 0, last = 0; first < write.size(); first = last + 1) { // neighbours at once: there may be many
+        for (last = first; last < write.size() && write[last]; ++last) {
+        }
+        if (last > first) {
+            mark(first, last);
         }
     }
+}
+
+void PhysicsPass::mark(std::size_t first, std::size_t last) {
+    const auto stride = static_cast<std::size_t>(patches_a_page_);
+    std::vector<shared::PatchState> states((last - first) * stride, {{0, 0}, shared::kPatchFree, 0});
+    for (std::size_t slot = first; slot < last; ++slot) {
+        const auto filled = static_cast<std::size_t>((placed_[slot].run.y + CULL_GROUP - 1) / CULL_GROUP);
+        for (std::size_t n = 0; n < filled; ++n) {
+            states[(slot - first) * stride + n].status = shared::kPatchNew;
+        }
+        marked_[slot] = filled > 0;
+    }
+    patches_.upload(states.data(), states.size() * sizeof(shared::PatchState), first * stride * sizeof(shared::PatchState));
 }
 
 void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& wind, const SphereLists& spheres) {
@@ -106,10 +123,7 @@ void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& 
     lists_.upload(spheres.lists.data(), spheres.lists.size() * sizeof(std::uint32_t));
     spheres_.reserve(std::max<std::size_t>(spheres.spheres.size(), 1) * sizeof(StepSphere));
     spheres_.upload(spheres.spheres.data(), spheres.spheres.size() * sizeof(StepSphere));
-    const std::uint32_t none = 0;
-    dispatch_.upload(&none, sizeof(none)); // the groups; what follows them stays
     block_.bind_uniform(BIND_PHYSICS);
-    records_.bind_storage(BIND_PHYSICS_BLADES);
     pages_.bind_storage(BIND_PHYSICS_PAGES);
     states_.bind_storage(BIND_PHYSICS_STATES);
     patches_.bind_storage(BIND_PHYSICS_PATCHES);
@@ -117,9 +131,22 @@ void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& 
     dispatch_.bind_storage(BIND_PHYSICS_DISPATCH);
     lists_.bind_storage(BIND_PHYSICS_LISTS);
     spheres_.bind_storage(BIND_PHYSICS_SPHERES);
+    if (records_of_mesh_.empty()) {
+        step_records(records_, 0);
+    }
+    for (std::size_t n = 0; n < records_of_mesh_.size(); ++n) {
+        step_records(*records_of_mesh_[n], static_cast<int>(n));
+    }
+}
+
+void PhysicsPass::step_records(const gl::Buffer& records, int number) {
+    const std::uint32_t none = 0;
+    dispatch_.upload(&none, sizeof(none)); // the groups; what follows them stays
+    records.bind_storage(BIND_PHYSICS_BLADES);
     wake_.use();
     wake_.set("patch_count", patch_count_);
     wake_.set("patches_a_page", patches_a_page_);
+    wake_.set("buffer_number", number);
     glDispatchCompute(static_cast<GLuint>((patch_count_ + WAKE_GROUP - 1) / WAKE_GROUP), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     step_.use();
@@ -131,7 +158,9 @@ void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& 
 
 void PhysicsPass::bind_for_drawing() const {
     states_.bind_storage(BIND_BLADE_STATES);
-    places_.bind_storage(BIND_BLADE_PLACES);
+    if (records_of_mesh_.empty()) {
+        places_.bind_storage(BIND_BLADE_PLACES);
+    }
 }
 
 std::uint64_t PhysicsPass::stepped_patches() const {

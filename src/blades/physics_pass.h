@@ -2,26 +2,35 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "blades/colliders.h"
 #include "blades/pages.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "shared/bindings.h"
+#include "shared/blade_pages.h"
 #include "shared/blade_physics.h"
 #include "shared/wind.h"
 
 namespace sward::blades {
 
 /// The states of living blades on the GPU and one fixed step of them (J4 to J6): a pass finds the patches that are awake, a second one
-/// steps those, by an indirect dispatch; patches at rest cost a test each. 16 bytes a blade and 16 a patch; the blades' records are the
-/// set's own, once.
+/// steps those, by an indirect dispatch; patches at rest cost a test each. 16 bytes a blade and 60 a patch; the blades' records are the
+/// set's own, once, or those that a mesh is drawn from.
 class PhysicsPass {
 public:
     PhysicsPass(const grass::GrassSet& set, const Pages& pages);
+    /// Of a mesh, a slot a cluster. `records`: buffers of SurfaceBlade that outlive this; a page says which.
+    PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots);
+    PhysicsPass(const PhysicsPass&) = delete;
+    PhysicsPass& operator=(const PhysicsPass&) = delete;
 
     /// Brings the slots' places for an anchor (world metres) to the GPU, and marks new and free patches. After every Pages::update.
     void place(const Pages& pages, double side_m, glm::dvec3 anchor);
+    /// The same from pages as the GPU takes them, one a slot; `fresh`: slots whose blades begin anew.
+    void place(std::vector<shared::BladePage> pages, std::span<const int> fresh);
     /// One step, of the patches that are awake or that something touches. Before: frame constants, clipmap and wind are bound.
     void step(const shared::BladeStep& rules, const shared::WindField& wind, const SphereLists& spheres);
     /// What the drawing of blades reads.
@@ -37,10 +46,12 @@ public:
     void reload();
 
 private:
-    void mark(const Pages& pages);
+    void mark(std::size_t first, std::size_t last); ///< sets up the patches of slots
+    void step_records(const gl::Buffer& records, int number);
     int patches_a_page_, patch_count_;
     std::vector<shared::BladePage> placed_;
     std::vector<bool> marked_; ///< slots whose patches are not free
+    std::vector<const gl::Buffer*> records_of_mesh_; ///< empty: records_
     std::vector<std::uint32_t> variant_begin_;
     gl::Program wake_, step_;
     gl::Buffer records_, places_, pages_, states_, patches_, awake_, dispatch_, lists_, spheres_, block_;

@@ -7,23 +7,17 @@
 
 namespace sward::blades {
 
-Simulation::Simulation(const grass::GrassSet& set, double response, Settings settings)
-    : settings_(settings), side_m_(set.side_m), variant_begin_(set.variant_begin),
-      rules_(shared::plain_blade_step(static_cast<float>(settings.step_s), set.canopy_m, static_cast<float>(response))),
-      pages_(set, settings.pages), pass_(set, pages_) {
-    for (const shared::BladeRecord& blade : set.blades) {
-        reach_m_ = std::max<double>(reach_m_, blade.shape.y);
-    }
-}
+LivingBlades::LivingBlades(Settings settings, double canopy_m, double response)
+    : settings_(settings), rules_(shared::plain_blade_step(static_cast<float>(settings.step_s), static_cast<float>(canopy_m), static_cast<float>(response))) {}
 
-void Simulation::restart(double time_s, bool run_up) {
-    pages_.clear();
+void LivingBlades::restart(double time_s, bool run_up) {
+    clear();
     lives_from_ = static_cast<std::int64_t>(std::floor(time_s / settings_.step_s + 1e-6)) + 1;
     const auto back = run_up ? static_cast<std::int64_t>(std::ceil(kRunUp_s / settings_.step_s)) : 0;
     done_ = std::max<std::int64_t>(lives_from_ - 1 - back, 0);
 }
 
-void Simulation::blow(double time_s, const Inputs& inputs) const {
+void LivingBlades::blow(double time_s, const Inputs& inputs) const {
     std::optional<gl::PassScope> scope;
     if (inputs.timers) {
         scope.emplace(*inputs.timers, "wind");
@@ -32,54 +26,65 @@ void Simulation::blow(double time_s, const Inputs& inputs) const {
     inputs.wind.bind();
 }
 
-void Simulation::physics(double time_s, const shared::BladeStep& rules, const SphereLists& lists, const Inputs& inputs) {
+void LivingBlades::step(double time_s, std::span<const MovingSphere> spheres, const shared::BladeStep& rules, const Inputs& inputs) {
     std::optional<gl::PassScope> scope;
     if (inputs.timers) {
-        scope.emplace(*inputs.timers, "physics");
+        scope.emplace(*inputs.timers, "physics"); // the broad phase is a part of it
     }
-    pass_.step(rules, inputs.wind.field({inputs.anchor.x, inputs.anchor.z}, time_s), lists);
-}
-
-void Simulation::step(std::int64_t number, const Inputs& inputs, bool run_up) {
-    const double time_s = static_cast<double>(number) * settings_.step_s;
-    blow(time_s, inputs);
-    const auto spheres = inputs.colliders.at(time_s, settings_.step_s);
-    const SphereLists lists = sphere_lists(pages_, side_m_, reach_m_, spheres, inputs.anchor);
+    const SphereLists lists = meet(spheres, inputs.anchor);
     pairs_ += lists.pairs;
-    shared::BladeStep rules = rules_;
-    rules.time.w = run_up ? 1.0f : 0.0f;
-    physics(time_s, rules, lists, inputs);
+    pass().step(rules, inputs.wind.field({inputs.anchor.x, inputs.anchor.z}, time_s), lists);
 }
 
-void Simulation::advance(double time_s, const Inputs& inputs) {
+void LivingBlades::advance(double time_s, const Inputs& inputs) {
     pairs_ = 0;
     const auto target = static_cast<std::int64_t>(std::floor(time_s / settings_.step_s + 1e-6));
     const auto longest = static_cast<std::int64_t>(kRunUp_s / settings_.step_s);
-    if (pages_.slots().empty() || !std::isfinite(time_s)) {
+    if (no_room() || !std::isfinite(time_s)) {
         blow(time_s, inputs);
         return;
     }
     if (done_ < 0 || target < done_ || target - done_ > longest) {
         restart(time_s, inputs.colliders.any());
     }
-    pages_.update(inputs.surface, inputs.eye);
-    pass_.place(pages_, side_m_, inputs.anchor);
+    page(inputs);
     if (inputs.most_steps > 0 && lives_from_ <= done_) {
         done_ = std::max(done_, target - inputs.most_steps);
     }
+    shared::BladeStep rules = rules_;
     bool set_up = false;
     while (done_ < target) {
         ++done_;
         const bool run_up = done_ < lives_from_;
-        step(done_, inputs, run_up);
+        rules.time.w = run_up ? 1.0f : 0.0f;
+        const double then_s = static_cast<double>(done_) * settings_.step_s;
+        blow(then_s, inputs);
+        step(then_s, inputs.colliders.at(then_s, settings_.step_s), rules, inputs);
         set_up = !run_up;
     }
     blow(time_s, inputs);
     if (!set_up) { // no step has looked after blades that begin
-        shared::BladeStep rules = rules_;
+        rules = rules_;
         rules.time.x = 0;
-        physics(time_s, rules, sphere_lists(pages_, side_m_, reach_m_, {}, inputs.anchor), inputs);
+        step(time_s, {}, rules, inputs);
     }
+}
+
+Simulation::Simulation(const grass::GrassSet& set, double response, Settings settings)
+    : LivingBlades(settings, set.canopy_m, response), side_m_(set.side_m), variant_begin_(set.variant_begin), pages_(set, settings.pages),
+      pass_(set, pages_) {
+    for (const shared::BladeRecord& blade : set.blades) {
+        blade_reach_m_ = std::max<double>(blade_reach_m_, blade.shape.y);
+    }
+}
+
+void Simulation::page(const Inputs& inputs) {
+    pages_.update(inputs.surface, inputs.eye);
+    pass_.place(pages_, side_m_, inputs.anchor);
+}
+
+SphereLists Simulation::meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const {
+    return sphere_lists(pages_, side_m_, blade_reach_m_, spheres, anchor);
 }
 
 std::uint64_t Simulation::blades() const {

@@ -11,9 +11,9 @@
 
 namespace sward::blades {
 
-/// The living blades around an eye through time. Steps are counted from time 0, so that pictures may come at any rate; between
+/// Living blades through time, wherever they stand. Steps are counted from time 0, so that pictures may come at any rate; between
 /// pictures the wind goes along step by step. What is drawn is the last whole step.
-class Simulation {
+class LivingBlades {
 public:
     static constexpr double kStep_s = 1.0 / 60;
     /// Longer than any trail stays: a start or a leap with colliders begins so long before, and only what they touch lives through it.
@@ -23,8 +23,9 @@ public:
         Pages::Settings pages;
         double step_s = kStep_s; ///< of the physics; cost falls as it grows, past 1/20 s stiff blades overshoot
     };
-    /// `response`: of the grouped pose that blades begin in, 1 / (m/s).
-    Simulation(const grass::GrassSet& set, double response, Settings settings);
+    virtual ~LivingBlades() = default;
+    LivingBlades(const LivingBlades&) = delete;
+    LivingBlades& operator=(const LivingBlades&) = delete;
 
     struct Inputs {
         wind::Wind& wind;
@@ -40,29 +41,58 @@ public:
     /// Before: frame constants and clipmap are bound. Throws as Wind::advance does.
     void advance(double time_s, const Inputs& inputs);
 
-    [[nodiscard]] const Pages& pages() const { return pages_; }
-    [[nodiscard]] PhysicsPass& pass() { return pass_; }
-    [[nodiscard]] const PhysicsPass& pass() const { return pass_; }
-    [[nodiscard]] std::uint64_t blades() const; ///< that have a state
+    [[nodiscard]] virtual PhysicsPass& pass() = 0;
+    [[nodiscard]] virtual const PhysicsPass& pass() const = 0;
+    [[nodiscard]] virtual std::uint64_t blades() const = 0; ///< that have a state
+    [[nodiscard]] virtual double reach_m() const = 0;       ///< every blade nearer to the last eye has one
     [[nodiscard]] std::int64_t steps() const { return done_; } ///< since time 0, those left out counted
     [[nodiscard]] std::uint64_t sphere_pairs() const { return pairs_; } ///< of a patch and a sphere, in the last call
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
+protected:
+    /// `canopy_m` and `response` as BladeStep::time takes them.
+    LivingBlades(Settings settings, double canopy_m, double response);
+    [[nodiscard]] virtual bool no_room() const = 0;
+    virtual void clear() = 0;
+    /// Pages in and out, their places to the GPU.
+    virtual void page(const Inputs& inputs) = 0;
+    /// The broad phase.
+    [[nodiscard]] virtual SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const = 0;
+
 private:
     void restart(double time_s, bool run_up);
     void blow(double time_s, const Inputs& inputs) const;
-    void step(std::int64_t number, const Inputs& inputs, bool run_up);
-    void physics(double time_s, const shared::BladeStep& rules, const SphereLists& lists, const Inputs& inputs);
+    void step(double time_s, std::span<const MovingSphere> spheres, const shared::BladeStep& rules, const Inputs& inputs);
 
     Settings settings_;
-    double side_m_, reach_m_ = 0;
-    std::vector<std::uint32_t> variant_begin_;
     shared::BladeStep rules_;
-    Pages pages_;
-    PhysicsPass pass_;
     std::int64_t done_ = -1; ///< the last step's number
     std::int64_t lives_from_ = 0; ///< the first step after a run-up
     std::uint64_t pairs_ = 0;
+};
+
+/// The living blades of a set around an eye.
+class Simulation final : public LivingBlades {
+public:
+    /// `response`: of the grouped pose that blades begin in, 1 / (m/s).
+    Simulation(const grass::GrassSet& set, double response, Settings settings);
+
+    [[nodiscard]] const Pages& pages() const { return pages_; }
+    [[nodiscard]] PhysicsPass& pass() override { return pass_; }
+    [[nodiscard]] const PhysicsPass& pass() const override { return pass_; }
+    [[nodiscard]] std::uint64_t blades() const override;
+    [[nodiscard]] double reach_m() const override { return pages_.reach_m(); }
+
+private:
+    [[nodiscard]] bool no_room() const override { return pages_.slots().empty(); }
+    void clear() override { pages_.clear(); }
+    void page(const Inputs& inputs) override;
+    [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const override;
+
+    double side_m_, blade_reach_m_ = 0;
+    std::vector<std::uint32_t> variant_begin_;
+    Pages pages_;
+    PhysicsPass pass_;
 };
 
 } // namespace sward::blades

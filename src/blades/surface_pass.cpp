@@ -17,7 +17,7 @@ SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSp
         const std::size_t last = std::min(first + kPageClusters, grass.clusters.size());
         const std::uint32_t begin = grass.clusters[first].first;
         const std::uint32_t end = grass.clusters[last - 1].first + grass.clusters[last - 1].count;
-        Page page{gl::Buffer::of(std::span(grass.blades).subspan(begin, end - begin)), {}};
+        Page page{gl::Buffer::of(std::span(grass.blades).subspan(begin, end - begin)), {}, first};
         for (std::size_t c = first; c < last; ++c) {
             page.clusters.push_back(grass.clusters[c]);
             page.clusters.back().first -= begin;
@@ -35,6 +35,22 @@ TileList SurfacePass::select(const Page& page, const terrain::Frustum& frustum, 
         }
     }
     return list;
+}
+
+std::uint64_t SurfacePass::bytes() const {
+    std::uint64_t sum = cull_.bytes();
+    for (const Page& page : pages_) {
+        sum += page.blades.bytes();
+    }
+    return sum;
+}
+
+std::unique_ptr<SurfaceSimulation> SurfacePass::simulation(LivingBlades::Settings settings) const {
+    std::vector<SurfaceSimulation::Records> records;
+    for (const Page& page : pages_) {
+        records.push_back({&page.blades, page.clusters});
+    }
+    return std::make_unique<SurfaceSimulation>(records, canopy_m_, settings);
 }
 
 void SurfacePass::describe(const gl::Program& program, glm::vec3 origin, float thin_out) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -8,6 +9,7 @@
 #include "blades/cull_pass.h"
 #include "blades/draw_pass.h"
 #include "blades/surface_placement.h"
+#include "blades/surface_simulation.h"
 #include "gl/buffer.h"
 #include "scene/surface_grass.h"
 #include "terrain/frustum.h"
@@ -25,9 +27,10 @@ public:
     /// Culls and draws what the view reaches, page by page and batch by batch. `origin`: of the mesh's space, anchor-relative.
     /// `draw`: the SURFACE variant. Before: frame constants are bound, the depth pyramid where occlusion is tested. `keep_total`: later
     /// pictures of one frame add to its count.
-    /// `pass`(name, what): runs a step under a name for timer and statistics.
+    /// `pass`(name, what): runs a step under a name for timer and statistics. `living`: null where no blade lives.
     template<class Pass>
-    void execute(const terrain::Frustum& frustum, glm::vec3 origin, DrawPass& draw, const CullTests& tests, bool keep_total, Pass pass) {
+    void execute(const terrain::Frustum& frustum, glm::vec3 origin, DrawPass& draw, const CullTests& tests, bool keep_total,
+                 const SurfaceSimulation* living, Pass pass) {
         considered_ = keep_total ? considered_ : 0;
         bool again = keep_total;
         for (const Page& page : pages_) {
@@ -42,9 +45,15 @@ public:
             const float thin_out = tests.distance ? thin_out_m_ : 0;
             describe(cull_.program(), origin, thin_out);
             describe(draw.program(), origin, thin_out);
+            draw.program().set("first_cluster", static_cast<int>(page.first_cluster));
             for (std::size_t batch = 0; batch < cull_.batches(); ++batch) {
                 pass("cull blades", [&] { cull_.execute(batch, tests); });
-                pass("draw blades", [&] { draw.execute(cull_); });
+                pass("draw blades", [&] {
+                    if (living) {
+                        living->bind_for_drawing(); // where the culling had its own
+                    }
+                    draw.execute(cull_);
+                });
             }
         }
     }
@@ -52,12 +61,16 @@ public:
     [[nodiscard]] std::uint64_t considered() const { return considered_; } ///< blades of the clusters in view
     [[nodiscard]] const CullPass& cull() const { return cull_; }
     [[nodiscard]] std::size_t count() const { return count_; }
+    [[nodiscard]] std::uint64_t bytes() const; ///< of the blades and of what culls them
+    /// Lives as long as this.
+    [[nodiscard]] std::unique_ptr<SurfaceSimulation> simulation(LivingBlades::Settings settings) const;
     void reload() { cull_.reload(); }
 
 private:
     struct Page {
         gl::Buffer blades;
         std::vector<SurfaceCluster> clusters; ///< `first` within the page
+        std::size_t first_cluster = 0;        ///< among all
     };
     [[nodiscard]] static TileList select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin);
     void describe(const gl::Program& program, glm::vec3 origin, float thin_out) const;

@@ -18,7 +18,8 @@ std::uint32_t PassTimers::next_query() {
     return queries_[used_++];
 }
 
-void PassTimers::begin_frame() {
+void PassTimers::begin_frame(bool wait) {
+    wait_ = wait;
     entries_.clear();
     used_ = 0;
 }
@@ -40,7 +41,11 @@ std::vector<PassTimers::Row> PassTimers::rows() {
 }
 
 PassScope::PassScope(PassTimers& timers, const char* name)
-    : timers_(timers), entry_(timers.entries_.size()), start_(std::chrono::steady_clock::now()) {
+    : timers_(timers), entry_(timers.entries_.size()) {
+    if (timers_.wait_) {
+        glFinish();
+    }
+    start_ = std::chrono::steady_clock::now();
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
     timers_.entries_.push_back({name, timers_.next_query(), timers_.next_query(), 0});
     glQueryCounter(timers_.entries_[entry_].begin_query, GL_TIMESTAMP);
@@ -48,6 +53,9 @@ PassScope::PassScope(PassTimers& timers, const char* name)
 
 PassScope::~PassScope() {
     glQueryCounter(timers_.entries_[entry_].end_query, GL_TIMESTAMP);
+    if (timers_.wait_) {
+        glFinish();
+    }
     const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start_;
     timers_.entries_[entry_].cpu_ms = passed.count();
     glPopDebugGroup();

@@ -21,7 +21,8 @@ public:
     PassTimers(const PassTimers&) = delete;
     PassTimers& operator=(const PassTimers&) = delete;
 
-    void begin_frame();
+    /// `wait`: until the GPU is done, at both ends of each pass. Then cpu_ms is a pass's own time in software too.
+    void begin_frame(bool wait = false);
     /// Rows of the frame begun last; a pass that ran more than once is summed. Waits for the GPU.
     [[nodiscard]] std::vector<Row> rows();
 
@@ -33,6 +34,7 @@ private:
         double cpu_ms = 0;
     };
     std::uint32_t next_query();
+    bool wait_ = false;
     std::vector<Entry> entries_;
     std::vector<std::uint32_t> queries_;
     std::size_t used_ = 0;

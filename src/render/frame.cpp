@@ -44,35 +44,53 @@ void Renderer::Impl::build_pyramid(const FrameSettings& settings) {
     }
 }
 
-const blades::Simulation* Renderer::Impl::living(const FrameSettings& settings) const {
-    return settings.physics && draws_blades(settings) ? simulation.get() : nullptr;
+const blades::LivingBlades* Renderer::Impl::living(const FrameSettings& settings) const {
+    if (!settings.physics || !draws_blades(settings)) {
+        return nullptr;
+    }
+    return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get()) : simulation.get();
+}
+
+blades::LivingBlades* Renderer::Impl::wake(const FrameSettings& settings) {
+    if (!settings.physics || !draws_blades(settings) || (!mesh_ground && world.grass.blades.empty())) {
+        return nullptr;
+    }
+    const blades::LivingBlades::Settings wanted{{settings.simulated_radius_m, settings.most_simulated_bytes}};
+    const auto* present = living(settings);
+    const bool fits = present && present->settings().pages.radius_m == wanted.pages.radius_m &&
+                      present->settings().pages.most_bytes == wanted.pages.most_bytes;
+    if (mesh_ground) {
+        surface_simulation = fits ? std::move(surface_simulation) : mesh_ground->grass().simulation(wanted);
+        return surface_simulation.get();
+    }
+    simulation = fits ? std::move(simulation) : std::make_unique<blades::Simulation>(world.grass, response, wanted);
+    return simulation.get();
 }
 
 void Renderer::Impl::simulate(const View& view, const FrameSettings& settings) {
     const glm::dvec3 eye = view.pose.position;
-    if (!settings.physics || !draws_blades(settings) || world.grass.blades.empty()) {
+    blades::LivingBlades* const alive = wake(settings);
+    if (!alive) {
         const gl::PassScope pass(timers, "wind");
         wind.advance(view.time_s, {eye.x, eye.z}, settings.most_wind_steps);
         wind.bind();
         return;
     }
-    if (!simulation || simulation->settings().pages.radius_m != settings.simulated_radius_m) {
-        simulation = std::make_unique<blades::Simulation>(world.grass, response, blades::Simulation::Settings{{settings.simulated_radius_m}});
+    if (!mesh_ground) { // blades meet colliders on the ground that is drawn
+        clipmap.update({eye.x, eye.z});
+        clipmap.bind();
     }
-    // Blades meet colliders on the ground that is drawn.
-    clipmap.update({eye.x, eye.z});
-    clipmap.bind();
     const Shot shot = make_shot(view, settings, glm::dvec2(0));
     frame_buffer.upload(&shot.constants, sizeof(shot.constants));
     frame_buffer.bind_uniform(BIND_FRAME);
-    simulation->advance(view.time_s, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps,
-                                      &timers});
+    alive->advance(view.time_s, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps,
+                                 &timers});
 }
 
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
     const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
                                             {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
-                                             shot.constants.mode.x, living(settings) ? &living(settings)->pages() : nullptr});
+                                             shot.constants.mode.x, living(settings) ? &simulation->pages() : nullptr});
     cull.upload(tiles, counts.blades_considered > 0);
     blade_records.bind_storage(BIND_BLADES);
     for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
@@ -157,7 +175,7 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
 void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings) {
     counts = {};
     last_settings = settings;
-    timers.begin_frame();
+    timers.begin_frame(settings.wait_in_passes);
     targets.require(settings.width, settings.height, settings.samples, settings.aov);
     simulate(view, settings);
     const int pictures = settings.tiers == Tiers::kReference ? settings.reference_grid * settings.reference_grid : 1;

@@ -123,8 +123,8 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, view.time_s);
-    if (const blades::Simulation* alive = living(settings)) {
-        const auto reach = static_cast<float>(alive->pages().reach_m());
+    if (const blades::LivingBlades* alive = living(settings)) {
+        const auto reach = static_cast<float>(alive->reach_m());
         out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};
     }
     out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter

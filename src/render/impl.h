@@ -69,7 +69,9 @@ struct Renderer::Impl {
     /// Pages of living blades in and out, and whole steps of the wind and the blades up to the view's time.
     void simulate(const View& view, const FrameSettings& settings);
     void draw_blades(const FrameSettings& settings, const Shot& shot);
-    [[nodiscard]] const blades::Simulation* living(const FrameSettings& settings) const;
+    /// The blades that live, made anew for other bounds; null where none does.
+    [[nodiscard]] blades::LivingBlades* wake(const FrameSettings& settings);
+    [[nodiscard]] const blades::LivingBlades* living(const FrameSettings& settings) const;
     [[nodiscard]] Shot make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const;
     [[nodiscard]] DrawPasses& passes(bool aov);
 
@@ -89,9 +91,10 @@ struct Renderer::Impl {
     blades::CullPass cull;
     blades::DepthPyramid depth_pyramid;
     blades::Colliders colliders;
-    std::unique_ptr<blades::Simulation> simulation; ///< made for the first frame that wants it
+    std::unique_ptr<blades::Simulation> simulation; ///< of the set's blades; made for the first frame that wants it
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
     std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field, no far tier
+    std::unique_ptr<blades::SurfaceSimulation> surface_simulation; ///< of a mesh's; goes before its ground
     std::map<std::filesystem::path, MeshBuffer> object_meshes; ///< under the scene's names; "": the ball
     Targets targets;
     gl::PassTimers timers;

@@ -55,7 +55,7 @@ void Renderer::Impl::draw_mesh_ground(const FrameSettings& settings, const Shot&
     build_pyramid(settings);
     const blades::CullTests tests = settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false} : settings.cull;
     mesh_ground->grass().execute(terrain::Frustum(shot.constants.clip_from_world), origin, draw.surface(settings.aov), tests,
-                                 counts.blades_considered > 0, [&](const char* name, auto&& step) {
+                                 counts.blades_considered > 0, living(settings) ? surface_simulation.get() : nullptr, [&](const char* name, auto&& step) {
                                      const gl::PassScope pass(timers, name);
                                      step();
                                  });

@@ -53,6 +53,12 @@ Renderer::Impl::Impl(World inputs)
         world.surface = {};
     }
     make_object_meshes();
+    for (const scene::ObjectSpec& object : world.scene.objects) {
+        const auto packed = world.spheres.find(object.mesh);
+        if (object.collides && !object.mesh.empty() && packed != world.spheres.end()) {
+            colliders.add_body(object, packed->second.spheres);
+        }
+    }
     // The GPU holds the images now; tens of megabytes are freed here.
     for (grass::FarLevel& level : world.grass.levels) {
         level.layers.mips.clear();
@@ -136,11 +142,15 @@ FrameStats Renderer::stats() {
         stats.culled_by_distance = counts[CULL_DISTANCE];
         stats.culled_by_occlusion = counts[CULL_OCCLUSION];
     }
-    if (const blades::Simulation* living = impl_->living(settings)) {
+    if (const blades::LivingBlades* living = impl_->living(settings)) {
         stats.blades_simulated = living->blades();
         stats.patches_stepped = living->pass().stepped_patches();
         stats.physics_steps = static_cast<std::uint64_t>(living->steps());
-        stats.physics_bytes = living->pass().bytes();
+        stats.physics_bytes = impl_->mesh_ground ? impl_->surface_simulation->bytes() : living->pass().bytes();
+        stats.sphere_pairs = living->sphere_pairs();
+    }
+    if (impl_->mesh_ground) {
+        stats.surface_bytes = impl_->mesh_ground->grass().bytes();
     }
     stats.gpu_bytes = gl::gpu_bytes();
     return stats;
@@ -174,6 +184,7 @@ std::vector<std::string> Renderer::reload_shaders() {
     }
     for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); },
                         +[](Impl& i) { if (i.simulation) { i.simulation->pass().reload(); } },
+                        +[](Impl& i) { if (i.surface_simulation) { i.surface_simulation->pass().reload(); } },
                         +[](Impl& i) { if (i.mesh_ground) { i.mesh_ground->grass().reload(); } }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {
         try {
             reload(*impl_);

@@ -41,8 +41,10 @@ struct FrameSettings {
     float exposure = 1.0f;
     bool physics = true;        ///< blades near the eye live (J4 to J6); else all are grouped (W3)
     double simulated_radius_m = 8; ///< around the eye; memory and time of the physics grow with its square
+    std::size_t most_simulated_bytes = 64ull << 20; ///< of their states, 16 a blade: when they are spent the farthest are grouped
     int most_physics_steps = 0; ///< in a frame, 0: any number; steps before the last ones are left out
     int most_wind_steps = 0;    ///< of the local window in a frame, 0: any number; it then lags behind the time instead of the frame
+    bool wait_in_passes = false; ///< each pass's time is its own, in software too; costs the overlap of passes
     bool aov = false;           ///< also fill the AOV targets; costs about a third more fill
 };
 
@@ -69,6 +71,8 @@ struct FrameStats {
     std::uint64_t patches_stepped = 0;   ///< of 128 blades, in all steps since the renderer began
     std::uint64_t physics_steps = 0;     ///< since time 0
     std::uint64_t physics_bytes = 0;     ///< all buffers of the blades' physics
+    std::uint64_t sphere_pairs = 0;      ///< of a patch and a collider that it may meet, in the frame's steps
+    std::uint64_t surface_bytes = 0;     ///< of a mesh's blades and of what culls them
     std::uint64_t shell_fragments = 0;   ///< that passed every test and were written
     std::uint64_t slice_fragments = 0;
     std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive

@@ -30,6 +30,8 @@ std::vector<Variant> variants() {
                                 {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
                                 {{"blades/wake.comp"}, {}},
                                 {{"blades/physics.comp"}, {}},
+                                {{"blades/physics.comp"}, {"SURFACE"}},
+                                {{"blades/wake.comp"}, {"SURFACE"}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
@@ -166,7 +168,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"States", BIND_PHYSICS_STATES},  {"Patches", BIND_PHYSICS_PATCHES},
         {"Awake", BIND_PHYSICS_AWAKE},    {"Dispatch", BIND_PHYSICS_DISPATCH},
         {"Lists", BIND_PHYSICS_LISTS},    {"Spheres", BIND_PHYSICS_SPHERES},
-        {"Places", BIND_BLADE_PLACES},
+        {"Places", BIND_BLADE_PLACES},    {"Slots", BIND_BLADE_PLACES},
 
         {"Blades", BIND_BLADES},          {"SurfaceBlades", BIND_BLADES},
         {"Tiles", BIND_BLADE_TILES},

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/error.h"
+#include "blades/surface_simulation.h"
 #include "gl/fixture.h"
 #include "render/renderer.h"
 
@@ -154,6 +155,102 @@ TEST_F(SurfaceScenes, TwoRenderersDrawTheSame) {
     b.draw({pose, pose, 1, 0}, settings);
     b.draw({pose, pose, 1, 0}, settings);
     EXPECT_EQ(a.read_picture().rgb, b.read_picture().rgb);
+}
+
+/// A quarter of a tube of 1.5 m about the x axis, from upright over level to hanging.
+scene::Mesh bent_sheet() {
+    scene::Mesh mesh;
+    constexpr int kRows = 24;
+    for (int i = 0; i <= kRows; ++i) {
+        const double angle = 2.6 * i / kRows - 0.4;
+        const glm::vec3 out(0, std::cos(angle), std::sin(angle));
+        for (const float x : {-1.0f, 1.0f}) {
+            mesh.positions.push_back(1.5f * out + glm::vec3(x, 0, 0));
+            mesh.normals.push_back(out);
+        }
+    }
+    for (std::uint32_t i = 0; i < 2 * kRows; i += 2) {
+        mesh.triangles.push_back({i, i + 2, i + 1});
+        mesh.triangles.push_back({i + 1, i + 2, i + 3});
+    }
+    return mesh;
+}
+
+TEST_F(SurfaceScenes, LivingBladesOfAMeshEqualTheTwin) {
+    const SmallWorld world(flat_field(0), 0, even_mask(1), {0, 1, 3});
+    scene::SurfaceGrassSpec spec;
+    spec.density_per_m2 = 300;
+    spec.lean = 0.4;
+    const auto grass = blades::place_surface_grass(bent_sheet(), spec, "bent.glb");
+    const auto records = gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass.blades));
+    const double canopy = spec.blade_height_m.y;
+    blades::SurfaceSimulation simulation({{&records, grass.clusters}}, canopy, {{50, 64 << 20}, 1.0 / 60});
+    scene::Scene scene;
+    scene::ObjectSpec ball;
+    ball.kind = "sphere";
+    ball.radius_m = 0.25;
+    ball.path = "over";
+    scene.objects = {ball};
+    scene.paths["over"].keys = {{0, {-0.6, 1.8, -0.6}, 0, 0}, {1.5, {0.2, 1.7, 0.4}, 0, 0}, {3, {0.6, -0.2, 1.8}, 0, 0}};
+    const blades::Colliders balls(scene, [](double, double) { return 0.0; });
+    wind::Wind wind(SmallWorld::breeze(), 0);
+    const glm::dvec3 anchor(0);
+    const blades::LivingBlades::Inputs inputs{wind, world.surface, balls, {0, 1, 3}, anchor, 0, 0, nullptr};
+    simulation.advance(0, inputs);
+    ASSERT_EQ(simulation.blades(), grass.blades.size());
+    const auto states = [&] { return simulation.pass().states().read_all<glm::vec4>(simulation.slots() * CULL_GROUP); };
+    const auto place = [&](std::size_t blade) { return static_cast<std::size_t>(simulation.slot_of(blade / CULL_GROUP)) * CULL_GROUP + blade % CULL_GROUP; };
+    std::vector<glm::vec4> twin = states();
+    const auto rules = shared::plain_blade_step(1.0f / 60, static_cast<float>(canopy), 0);
+    double worst = 0, moved = 0, memory = 0, under = 0;
+    for (int step = 1; step <= 240; ++step) {
+        simulation.advance(step / 60.0, inputs);
+        wind.wait();
+        const auto now = balls.at(step / 60.0, 1.0 / 60).front();
+        const blades::StepSphere sphere{glm::vec4(glm::vec3(now.centre), static_cast<float>(now.radius_m)), glm::vec4(glm::vec3(now.before), 0)};
+        for (std::size_t n = 0; n < grass.blades.size(); ++n) {
+            const glm::vec3 root(grass.blades[n].root_direction);
+            const auto body = shared::surface_blade_body(rules, grass.blades[n], root);
+            glm::vec4& state = twin[place(n)];
+            state = blades::step_blade(rules, body, root, glm::vec2(wind.at(root.x, root.z, step / 60.0)), {&sphere, 1}, state);
+            under = std::max<double>(under, -glm::dot(body.calm2 + glm::vec3(state), body.up) / body.stem_canopy.x);
+        }
+        if (step % 40 == 0) {
+            const auto found = states();
+            for (std::size_t n = 0; n < grass.blades.size(); ++n) {
+                const double length = grass.blades[n].v1_height.w;
+                worst = std::max<double>(worst, glm::distance(glm::vec3(found[place(n)]), glm::vec3(twin[place(n)])) / length);
+                moved = std::max<double>(moved, glm::length(glm::vec3(found[place(n)])) / length);
+                memory = std::max<double>(memory, found[place(n)].w);
+            }
+        }
+    }
+    std::printf("%zu blades: worst %.2e of a length; greatest move %.2f; memory %.2f; under %.1e\n", grass.blades.size(), worst, moved, memory, under);
+    EXPECT_LT(worst, 1e-4);
+    EXPECT_GT(moved, 0.5);
+    EXPECT_GT(memory, 1.0);
+    EXPECT_LT(under, 1e-4);
+}
+
+TEST_F(SurfaceScenes, ThePoolOfAMeshHasABound) {
+    const auto draw = [](std::size_t bytes, double radius_m) {
+        Renderer renderer(mesh_world(sheet(2)));
+        FrameSettings settings;
+        settings.width = 64;
+        settings.height = 48;
+        settings.most_simulated_bytes = bytes;
+        settings.simulated_radius_m = radius_m;
+        scene::Pose pose;
+        pose.position = {1.5, 1, 1.5};
+        pose.agl = false;
+        renderer.draw({pose, pose, 1, 0}, settings);
+        return renderer.stats().blades_simulated;
+    };
+    EXPECT_EQ(draw(1 << 20, 20), 16u * 800u);
+    EXPECT_EQ(draw(5 * CULL_GROUP * 16 + 1, 20), 5u * CULL_GROUP);
+    const std::uint64_t near = draw(1 << 20, 1.5);
+    EXPECT_GT(near, 1000u);
+    EXPECT_LT(near, 6000u);
 }
 
 TEST_F(SurfaceScenes, ReloadKeepsDrawing) {
