@@ -53,12 +53,6 @@ Renderer::Impl::Impl(World inputs)
         world.surface = {};
     }
     make_object_meshes();
-    for (const scene::ObjectSpec& object : world.scene.objects) {
-        const auto packed = world.spheres.find(object.mesh);
-        if (object.collides && !object.mesh.empty() && packed != world.spheres.end()) {
-            colliders.add_body(object, packed->second.spheres);
-        }
-    }
     // The GPU holds the images now; tens of megabytes are freed here.
     for (grass::FarLevel& level : world.grass.levels) {
         level.layers.mips.clear();

@@ -192,7 +192,7 @@ TEST_F(SurfaceScenes, LivingBladesOfAMeshEqualTheTwin) {
     ball.path = "over";
     scene.objects = {ball};
     scene.paths["over"].keys = {{0, {-0.6, 1.8, -0.6}, 0, 0}, {1.5, {0.2, 1.7, 0.4}, 0, 0}, {3, {0.6, -0.2, 1.8}, 0, 0}};
-    const blades::Colliders balls(scene, [](double, double) { return 0.0; });
+    const blades::Colliders balls(scene, {}, [](double, double) { return 0.0; });
     wind::Wind wind(SmallWorld::breeze(), 0);
     const glm::dvec3 anchor(0);
     const blades::LivingBlades::Inputs inputs{wind, world.surface, balls, {0, 1, 3}, anchor, 0, 0, nullptr};

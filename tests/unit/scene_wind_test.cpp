@@ -42,6 +42,14 @@ protected:
     fs::path dir_;
 };
 
+TEST_F(WindSection, StepsAndArrowsThatMeanNothingAreRefused) {
+    for (const char* step : {"0", "10", "-0.01", "nan", "inf"})
+        EXPECT_NE(error(std::string("[wind]\nstep_s = ") + step + "\n").find("wind.step_s: found "), std::string::npos) << step;
+    const std::string arrow = "[[wind.arrow]]\nid = \"a\"\nroot = [1, 1]\nstrength_ms = 8\ntip = ";
+    EXPECT_NE(error(arrow + "[1, 1]\n").find("wind.arrow[0].tip"), std::string::npos);
+    EXPECT_EQ(error(arrow + "[1, 2]\n"), "no error");
+}
+
 TEST_F(WindSection, ReadsSpansOfArrows) {
     const Scene scene = load("[[wind.arrow]]\nid = \"a\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_ms = 3\n"
                              "[[wind.arrow]]\nid = \"b\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_ms = 3\n"
