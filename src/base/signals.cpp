@@ -5,6 +5,8 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdint>
+#include <ctime>
 #include <thread>
 
 #include <fcntl.h>
@@ -18,13 +20,28 @@ namespace {
 
 constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 
-std::atomic<int> g_signals{0};
+std::atomic<std::int64_t> g_first_ms{0};
 std::array<int, 2> g_pipe{-1, -1};
+
+// One death of a parent with several threads is told more than once (PR_SET_PDEATHSIG): a repeat so soon is not impatience.
+constexpr std::int64_t kRepeat_ms = 500;
+
+std::int64_t now_ms() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now); // async-signal-safe
+    return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000 + 1;
+}
 
 extern "C" void on_signal(int signal) {
     const int saved = errno;
-    if (g_signals.fetch_add(1) > 0)
-        ::_exit(128 + signal);
+    const std::int64_t now = now_ms();
+    std::int64_t first = 0;
+    if (!g_first_ms.compare_exchange_strong(first, now)) {
+        if (now - first > kRepeat_ms)
+            ::_exit(128 + signal); // asked again: leave at once
+        errno = saved;
+        return;
+    }
     const auto number = static_cast<unsigned char>(signal);
     if (::write(g_pipe[1], &number, 1) != 1)
         ::_exit(128 + signal);
