@@ -83,17 +83,22 @@ SHARED_FN vec3 blade_gravity(BladeStep rules, vec3 root, vec3 front, float mobil
     return environment + 0.25f * length(environment) * front;
 }
 
-// A set's blade on ground that faces up, but for its gravity: what its pose needs.
-SHARED_FN BladeBody set_blade_shape(BladeRecord blade, float canopy) {
+// A body but for its gravity: what a pose needs.
+SHARED_FN BladeBody blade_shape(vec3 up, vec3 calm1, vec3 calm2, float stiffness, float canopy) {
     BladeBody body;
-    body.up = vec3(0.0f, 1.0f, 0.0f);
-    body.calm1 = vec3(blade.v1.x, blade.v1.y, blade.v1.z);
-    body.calm2 = vec3(blade.v2.x, blade.v2.y, blade.v2.z);
+    body.up = up;
+    body.calm1 = calm1;
+    body.calm2 = calm2;
     body.gravity = vec3(0.0f, 0.0f, 0.0f);
-    body.stem_canopy = vec2(bezier_length(body.calm1, body.calm2), canopy);
-    body.recovery = blade_recovery(blade.v2.w);
-    body.response = blade_response(blade.v2.w);
+    body.stem_canopy = vec2(bezier_length(calm1, calm2), canopy);
+    body.recovery = blade_recovery(stiffness);
+    body.response = blade_response(stiffness);
     return body;
+}
+
+// A set's blade stands on ground that faces up.
+SHARED_FN BladeBody set_blade_shape(BladeRecord blade, float canopy) {
+    return blade_shape(vec3(0.0f, 1.0f, 0.0f), vec3(blade.v1.x, blade.v1.y, blade.v1.z), vec3(blade.v2.x, blade.v2.y, blade.v2.z), blade.v2.w, canopy);
 }
 
 // Its baked curve is its calm pose, so gravity shows only where recovery is weak.

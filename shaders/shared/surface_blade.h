@@ -62,17 +62,11 @@ SHARED_FN void surface_settle(SHARED_OUT(vec3) v1, SHARED_OUT(vec3) v2, vec3 up,
     }
 }
 
-// What the physics needs of a mesh's blade, but for its gravity: its pose. `canopy`: greatest length of a blade there (m).
+// A mesh's blade but for its gravity. `canopy`: greatest length of a blade there (m).
 SHARED_FN BladeBody surface_blade_shape(SurfaceBlade blade, float canopy) {
-    BladeBody body;
-    body.up = vec3(blade.up_stiffness.x, blade.up_stiffness.y, blade.up_stiffness.z);
-    body.calm1 = vec3(blade.v1_height.x, blade.v1_height.y, blade.v1_height.z);
-    body.calm2 = vec3(blade.v2_width.x, blade.v2_width.y, blade.v2_width.z);
-    body.gravity = vec3(0.0f, 0.0f, 0.0f);
-    body.stem_canopy = vec2(bezier_length(body.calm1, body.calm2), canopy);
-    body.recovery = blade_recovery(blade.up_stiffness.w);
-    body.response = blade_response(blade.up_stiffness.w);
-    return body;
+    return blade_shape(vec3(blade.up_stiffness.x, blade.up_stiffness.y, blade.up_stiffness.z),
+                       vec3(blade.v1_height.x, blade.v1_height.y, blade.v1_height.z),
+                       vec3(blade.v2_width.x, blade.v2_width.y, blade.v2_width.z), blade.up_stiffness.w, canopy);
 }
 
 // The whole body. Its front is square to its width, as it has grown; the more its calm tip is off its root's normal, the more it sags.

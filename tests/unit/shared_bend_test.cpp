@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "curve_length.h"
 #include "shared/bend.h"
 #include "shared/blade.h"
 
@@ -20,18 +21,6 @@ glm::dvec2 integrated_arc(double s, double stem, double intensity) {
     for (int i = 0; i < kSteps; ++i) {
         const double theta = k * (i + 0.5) * step;
         sum += glm::dvec2(std::cos(theta), std::sin(theta)) * step;
-    }
-    return sum;
-}
-
-double measured_length(vec3 v1, vec3 v2) {
-    constexpr int kSteps = 512;
-    double sum = 0;
-    glm::dvec3 before(0);
-    for (int i = 1; i <= kSteps; ++i) {
-        const glm::dvec3 here(blade_curve(v1, v2, static_cast<float>(i) / kSteps));
-        sum += glm::length(here - before);
-        before = here;
     }
     return sum;
 }

@@ -6,24 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "curve_length.h"
 #include "shared/blade_physics.h"
 
 namespace sward::shared {
 namespace {
 
 constexpr float kStep_s = 1.0f / 60, kCanopy_m = 0.35f, kResponse = 0.16f;
-
-double measured_length(vec3 v1, vec3 v2) {
-    constexpr int kPieces = 512;
-    double sum = 0;
-    glm::dvec3 before(0);
-    for (int i = 1; i <= kPieces; ++i) {
-        const glm::dvec3 here(blade_curve(v1, v2, static_cast<float>(i) / kPieces));
-        sum += glm::length(here - before);
-        before = here;
-    }
-    return sum;
-}
 
 BladeRecord record_of(float stem, float azimuth, vec2 lean_turn, float stiffness) {
     const auto toward = [&](float angle) { return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth)); };
