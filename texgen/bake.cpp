@@ -4,6 +4,7 @@
 
 #include "texgen/far_level.h"
 #include "texgen/far_table.h"
+#include "texgen/march_fit.h"
 #include "texgen/placing.h"
 #include "texgen/step_timer.h"
 #include "texgen/writer.h"
@@ -56,6 +57,16 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
                               seen,   options.threads, &progress};
         for (int k = 0; k < preset.levels; ++k)
             set.levels.push_back(bake_level(frame, k));
+    }
+    {
+        const StepTimer timer("march");
+        const HeightCaster truth = cast_blades(patch, set.canopy_m);
+        MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(), heights_met(truth, preset.side_m, set.canopy_m));
+        for (int v = 0; v < patch.variants(); ++v)
+            add_blades(patch, v, builder);
+        const MarchData data = builder.finish(patch.looks);
+        set.march = pack_march(data);
+        set.march.correction = fit_march(data, truth, options.threads);
     }
     {
         const StepTimer timer("far table");

@@ -28,6 +28,8 @@ const char* format_name(grass::TexelFormat format) {
     switch (format) {
     case grass::TexelFormat::kRgba8:
         return "RGBA8";
+    case grass::TexelFormat::kRgba16f:
+        return "RGBA16F";
     case grass::TexelFormat::kRgba32f:
         return "RGBA32F";
     case grass::TexelFormat::kBc5:

@@ -49,6 +49,23 @@ ordered_json decimals(const std::vector<float>& values) {
     return list;
 }
 
+ordered_json numbers(const shared::vec4& v) {
+    return {decimal(v.x), decimal(v.y), decimal(v.z), decimal(v.w)};
+}
+
+ordered_json march_json(const grass::FarMedium& march) {
+    ordered_json out = {{"columns", grass::kColumnsFile}, {"correction", grass::kCorrectionFile}};
+    for (int k = 0; k < shared::kMarchSets; ++k)
+        out["slabs"].push_back(grass::slabs_file(k));
+    for (const shared::vec4& edge : march.medium.edges)
+        out["edges"].push_back(numbers(edge));
+    for (const shared::vec4& layer : march.medium.layers)
+        out["layers"].push_back({decimal(layer.x), decimal(layer.y)});
+    out["look"] = numbers(march.medium.look);
+    out["translucency"] = decimal(march.medium.size.z);
+    return out;
+}
+
 } // namespace
 
 std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& files) {
@@ -97,6 +114,7 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                                {"slice_share", decimal(row.slice_share)},
                                {"shell_share", shares}});
     }
+    root["march"] = march_json(set.march);
     const grass::FarLight& light = set.far_light;
     root["far_light"] = {{"leans", decimals(light.leans)},
                          {"lean_azimuths_deg", decimals(light.lean_azimuths_deg)},

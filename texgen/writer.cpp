@@ -12,6 +12,7 @@
 #include "base/log.h"
 #include "grass/bc5.h"
 #include "grass/blades_glb.h"
+#include "grass/far_medium.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 #include "texgen/check_nan.h"
@@ -59,6 +60,15 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
                                  return grass::encode_ktx2(*shapes, options.compression);
                              }});
     }
+    const auto add_march = [&](std::string name, const grass::TextureArray& array) {
+        parts.push_back({std::move(name), [&array, &options] { return grass::encode_ktx2(array, options.compression); }});
+    };
+    for (int k = 0; k < shared::kMarchSets; ++k)
+        add_march(grass::slabs_file(k), set.march.slabs[static_cast<std::size_t>(k)]);
+    add_march(grass::kColumnsFile, set.march.columns);
+    parts.push_back({grass::kCorrectionFile, [&set, &options] {
+                         return grass::encode_ktx2(grass::encode_correction(set.march), options.compression);
+                     }});
     if (!set.blades.empty()) // an imported volume's set is far-only
         parts.push_back({grass::kBladesFile, [&set] {
                              return grass::encode_blades(set.blades, set.variant_begin, set.side_m);

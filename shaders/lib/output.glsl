@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every surface's fragment shader writes. The AOV targets exist only in the variant that fills them.
+#include "lib/tiers.glsl"
 #include "shared/bindings.h"
 
 layout(location = OUT_COLOR) out vec4 out_color;
@@ -8,15 +9,6 @@ layout(location = OUT_DATA) out vec4 out_data;
 layout(location = OUT_TANGENT) out vec4 out_tangent;
 layout(location = OUT_NORMAL) out vec4 out_normal;
 #endif
-
-const float kTierGround = 0.0;
-const float kTierSimulatedBlade = 1.0;
-const float kTierGroupedBlade = 2.0;
-const float kTierShell = 3.0;
-const float kTierSliceX = 4.0;
-const float kTierSliceZ = 5.0;
-const float kTierObject = 6.0;
-const float kTierSky = 7.0;
 
 // tier_coverage_rank: tier, share of the pixel that is grass, rank of the blade.
 void write_surface(vec3 radiance, vec3 tier_coverage_rank, vec3 tangent, vec3 normal) {

@@ -1,20 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: multisampled targets. Out: radiance and coverage averaged; depth, tier and the like of the first sample, since a mean of
-// tiers is no tier.
-#include "lib/frame.glsl"
+// In: multisampled targets. Out: radiance and coverage averaged; depth, tier and the like of the first sample.
+#include "lib/resolved.glsl"
 
-layout(binding = TEX_RESOLVE_COLOR) uniform sampler2DMS scene_color;
-layout(binding = TEX_RESOLVE_DEPTH) uniform sampler2DMS scene_depth;
-#ifdef AOV
-layout(binding = TEX_RESOLVE_DATA) uniform sampler2DMS scene_data;
-layout(binding = TEX_RESOLVE_TANGENT) uniform sampler2DMS scene_tangent;
-layout(binding = TEX_RESOLVE_NORMAL) uniform sampler2DMS scene_normal;
-layout(location = OUT_TANGENT) out vec4 out_tangent;
-layout(location = OUT_NORMAL) out vec4 out_normal;
-#endif
-layout(location = OUT_COLOR) out vec4 out_color;
-layout(location = OUT_DATA) out vec4 out_data; // depth along the view axis (m, 0 at infinity), tier, rank
-uniform int samples;
 uniform float weight;
 
 void main() {
@@ -23,13 +10,6 @@ void main() {
     for (int i = 0; i < samples; ++i) {
         sum += texelFetch(scene_color, pixel, i);
     }
+    write_first_sample(pixel);
     out_color = sum * (weight / float(samples));
-    float depth = texelFetch(scene_depth, pixel, 0).r;
-    out_data = vec4(depth > 0.0 ? kNear_m / depth : 0.0, 0.0, 0.0, 0.0);
-#ifdef AOV
-    vec4 data = texelFetch(scene_data, pixel, 0);
-    out_data.yz = data.xz;
-    out_tangent = texelFetch(scene_tangent, pixel, 0);
-    out_normal = texelFetch(scene_normal, pixel, 0);
-#endif
 }

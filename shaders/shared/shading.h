@@ -126,27 +126,36 @@ SHARED_FN Light light_under(Light light, float open_sky) {
     return here;
 }
 
-// A point of a blade, to be shaded.
+// A point of a blade, to be shaded, or of many blades that stand for one.
 struct GrassPoint {
     vec3 albedo;
-    vec3 tangent; // unit
+    vec3 tangent; // unit; of many their axis
     float height; // of the point at rest, 0 ground .. 1 top of the canopy
     float slope;  // cosine between the ground's normal and the sun
+    float along;  // mean square of the tangents' part along the axis: 1 for one blade, 1/3 every way alike
 };
 
-// Radiance toward the eye (unit direction to_eye) of grass.
-SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
+// Radiance toward the eye (unit direction to_eye) of grass. `gloss`: kd, pd, ks, ps of G4. Of many blades the means: of the square of a
+// cosine, and of the highlight as that of a cosine spread by its variance.
+SHARED_FN vec3 shade_fibres(vec4 gloss, float translucency, Light light, GrassPoint point, vec3 to_eye) {
     vec3 sun_way = vec3(light.to_sun);
     float tl = dot(point.tangent, sun_way);
     float th = dot(point.tangent, normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f))); // never of length 0
-    float diffuse = look.light.x * pow(max(1.0f - tl * tl, 0.0f), 0.5f * look.light.y);
-    float specular = look.light.z * pow(max(1.0f - th * th, 0.0f), 0.5f * look.light.w);
+    float across = 0.5f * (1.0f - point.along);
+    float square = point.along * tl * tl + across * (1.0f - tl * tl);
+    float diffuse = gloss.x * pow(max(1.0f - square, 0.0f), 0.5f * gloss.y);
+    float wide = 1.0f + gloss.w * across * (1.0f - th * th);
+    float specular = gloss.z * pow(max(1.0f - point.along * th * th / wide, 0.0f), 0.5f * gloss.w) / sqrt(wide);
     // Against the light a blade glows: transmitted sunlight is yellower than reflected.
     float against = 0.5f - 0.5f * dot(to_eye, sun_way);
-    vec3 glow = point.albedo * vec3(1.25f, 1.15f, 0.5f) * (look.dry.w * against * against * against);
+    vec3 glow = point.albedo * vec3(1.25f, 1.15f, 0.5f) * (translucency * against * against * against);
     vec3 sky = even_sky(light) * canopy_sky(light, point.height);
     vec3 sun = vec3(light.sun) * canopy_sun(light, point.height, point.slope);
     return sun * ((point.albedo + glow) * diffuse + vec3(specular, specular, specular)) + sky * point.albedo;
+}
+
+SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
+    return shade_fibres(look.light, look.dry.w, light, point, to_eye);
 }
 
 // Radiance of bare ground under `density` of canopy (0 open).

@@ -68,7 +68,9 @@ void run_render(const Options& options) {
     const gl::HeadlessContext context(options.debug_gl);
     if (options.debug_gl)
         gl::watch_debug_messages(&messages);
-    render::Renderer renderer(load_world(scene));
+    render::World world = load_world(scene);
+    world.far = options.frame.far;
+    render::Renderer renderer(std::move(world));
 
     const OutputNames names(options);
     const std::string gpu = gl::context_info().renderer;

@@ -22,6 +22,8 @@ namespace {
 using render::HandoverMode;
 using render::Tiers;
 
+constexpr std::array<std::pair<std::string_view, render::FarScheme>, 2> kFarSchemes = {
+    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}}};
 constexpr std::array<std::pair<std::string_view, Tiers>, 4> kTiers = {
     {{"all", Tiers::kAll},
      {"blades", Tiers::kBlades},
@@ -102,6 +104,8 @@ void declare_frame_options(CLI::App& app, Options* o) {
     declare(app, "--exposure", "FACTOR", "default 1", [=](const std::string& text) {
         o->frame.exposure = static_cast<float>(parse_number("--exposure", text, kExposure));
     });
+    declare(app, "--far", "march|planes", "how the far field is drawn; planes: the raster scheme before the march, as a comparison",
+            [=](const std::string& text) { o->frame.far = parse_choice("--far", text, kFarSchemes); });
     declare(app, "--blades-distance", "METRES", "how far --tiers blades draws; default 200",
             [=](const std::string& text) {
                 o->frame.blades_distance_m = parse_number("--blades-distance", text, kDistance);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,12 +11,14 @@
 #include "grass/far_light.h"
 #include "shared/blade.h"
 #include "shared/grass_layout.h"
+#include "shared/march_medium.h"
 
 namespace sward::grass {
 
 enum class TexelFormat {
     kRgba8,   ///< UNORM, 4 bytes a texel
     kRgba32f, ///< 16 bytes a texel
+    kRgba16f, ///< 8 bytes a texel
     kBc5,     ///< two channels UNORM in blocks of 4 x 4 texels, 16 bytes a block
 };
 
@@ -67,6 +70,21 @@ struct FarRow {
 
 inline constexpr double kMaxShellShare = 8;
 
+/// What the far field's march reads (docs/far-field.md): averages of the blades' surface, which mips go on averaging. A texel of its images
+/// holds a density, the area of blades in it over the mean of its height (a), and their albedo times that (rgb).
+struct FarMedium {
+    shared::MarchMedium medium{};
+    TextureArray columns; ///< variants * kMarchLayers; u along x, v along z
+    /// Set k: variants * 2 axes * (kFinestSlabs >> k); u along the slab, v up from the ground to the canopy's top.
+    std::array<TextureArray, shared::kMarchSets> slabs;
+    /// Factors on the optical depth: kMarchDensities x half mips x elevations x kinds, the last fastest.
+    std::vector<float> correction;
+};
+inline constexpr int kMarchRows = 48; ///< of a slab of the finest set; the next has half as many
+inline constexpr std::array<double, 2> kMarchDensities = {1.0, 0.4};
+inline constexpr std::size_t kMarchCorrections =
+    kMarchDensities.size() * shared::kMarchMips * shared::kMarchElevations * (shared::kMarchSets + 1);
+
 /// One of the set's kinds of blades.
 struct Species {
     std::string name;
@@ -88,6 +106,7 @@ struct GrassSet {
     std::vector<shared::BladeRecord> blades;    ///< variant-major; inside a variant by rising rank
     std::vector<std::uint32_t> variant_begin;   ///< variants + 1 offsets into blades
     std::vector<FarLevel> levels;               ///< at least 1
+    FarMedium march;                            ///< what the far field is drawn from
     std::vector<FarRow> far;                    ///< falling elevation
     FarLight far_light;                         ///< its light, at the same elevations
     std::vector<Species> species;               ///< 1 to shared::kMaxSpecies; a blade's shape.w and a texel's A name one

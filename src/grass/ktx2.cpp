@@ -103,6 +103,8 @@ public:
             array.mips.push_back(unpack(level));
         if (array.format == TexelFormat::kRgba32f)
             check_finite(array);
+        if (array.format == TexelFormat::kRgba16f)
+            check_halves(array);
         return array;
     }
 
@@ -116,7 +118,7 @@ private:
         traits_ = traits_of_vk(header_.format);
         if (!traits_)
             refuse(ExitCode::kBadInput, "format", std::to_string(header_.format),
-                   "37 (RGBA8 UNORM), 109 (RGBA32F) or 141 (BC5 UNORM)");
+                   "37 (RGBA8 UNORM), 97 (RGBA16F), 109 (RGBA32F) or 141 (BC5 UNORM)");
         if (header_.type_size != traits_->type_size)
             refuse(ExitCode::kBadInput, "type size", std::to_string(header_.type_size),
                    std::to_string(traits_->type_size));
@@ -216,6 +218,13 @@ private:
                 if (!std::isfinite(value))
                     refuse(ExitCode::kBadInput, "value", std::to_string(value), "a finite number");
             }
+    }
+
+    void check_halves(const TextureArray& array) const {
+        for (const std::vector<std::uint8_t>& mip : array.mips)
+            for (std::size_t at = 0; at + 1 < mip.size(); at += 2)
+                if ((mip[at + 1] & 0x7C) == 0x7C) // all bits of the exponent
+                    refuse(ExitCode::kBadInput, "value", "one that is no number", "a finite number");
     }
 
     std::span<const std::byte> bytes_;

@@ -8,9 +8,10 @@
 namespace sward::grass {
 namespace {
 
-constexpr std::array<FormatTraits, 3> kFormats = {{
+constexpr std::array<FormatTraits, 4> kFormats = {{
     {TexelFormat::kRgba8, "RGBA8 UNORM", 37, 1, 1, 4}, // VK_FORMAT_R8G8B8A8_UNORM
     {TexelFormat::kRgba32f, "RGBA32F", 109, 4, 1, 16}, // VK_FORMAT_R32G32B32A32_SFLOAT
+    {TexelFormat::kRgba16f, "RGBA16F", 97, 2, 1, 8},   // VK_FORMAT_R16G16B16A16_SFLOAT
     {TexelFormat::kBc5, "BC5 UNORM", 141, 1, 4, 16},   // VK_FORMAT_BC5_UNORM_BLOCK
 }};
 
@@ -36,8 +37,8 @@ std::vector<Sample> samples_of(TexelFormat format) {
     std::vector<Sample> samples;
     if (format == TexelFormat::kBc5) // one compressed channel is one sample of 64 bits
         return {{0, 63, 0, 0, 0, 0xFFFFFFFF}, {64, 63, 1, 0, 0, 0xFFFFFFFF}};
-    const bool real = format == TexelFormat::kRgba32f;
-    const int bits = real ? 32 : 8;
+    const bool real = format != TexelFormat::kRgba8;
+    const int bits = format == TexelFormat::kRgba32f ? 32 : real ? 16 : 8;
     for (int c = 0; c < 4; ++c) {
         const int channel = (c == 3 ? kChannelAlpha : c) | (real ? kSampleFloat | kSampleSigned : 0);
         samples.push_back({static_cast<std::uint16_t>(c * bits), static_cast<std::uint8_t>(bits - 1),

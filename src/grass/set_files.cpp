@@ -15,6 +15,9 @@ std::string level_file(const char* stem, int level) {
 std::string layers_file(int level) {
     return level_file("layers", level);
 }
+std::string slabs_file(int set) {
+    return level_file("slabs", set);
+}
 std::string slices_file(int level) {
     return level_file("slices", level);
 }

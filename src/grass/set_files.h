@@ -9,7 +9,7 @@ namespace sward::grass {
 
 /// Raised whenever sets of the same preset change, in form or in content: belongs in the key of every cache of
 /// sets, and the reader refuses every other.
-inline constexpr int kSetFormatVersion = 11;
+inline constexpr int kSetFormatVersion = 12;
 inline constexpr int kMaxVariants = 16;
 inline constexpr int kMaxFarLevels = 4; // as shared::kMaxFarLevels: the renderer has room for so many
 inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;
@@ -20,6 +20,11 @@ inline constexpr const char* kFarLightPicture = "far.exr"; // the same for tools
 inline constexpr const char* kVolumeFile = "volume.vdb";
 inline constexpr const char* kPreviewFile = "preview.png";
 
+inline constexpr const char* kColumnsFile = "columns.ktx2";
+inline constexpr const char* kCorrectionFile = "correction.ktx2";
+
+/// slabs.ktx2, slabs_1.ktx2, slabs_2.ktx2
+[[nodiscard]] std::string slabs_file(int set);
 /// layers.ktx2, layers_1.ktx2, ...
 [[nodiscard]] std::string layers_file(int level);
 [[nodiscard]] std::string slices_file(int level);

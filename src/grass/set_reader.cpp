@@ -11,6 +11,7 @@
 #include "grass/bc5.h"
 #include "grass/blades_glb.h"
 #include "grass/grass_set.h"
+#include "grass/far_medium.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 
@@ -249,6 +250,54 @@ TextureArray read_array(const SetJson& set, const fs::path& directory, const std
     return array;
 }
 
+std::vector<float> read_numbers(const SetJson& set, const json& object, const char* key, std::size_t count, double high) {
+    std::vector<float> numbers;
+    for (const json& value : set.array(object, key, count, count))
+        numbers.push_back(static_cast<float>(set.in_range(value, key, 0, high)));
+    return numbers;
+}
+
+/// One of the march's arrays: its shape is the reader's to know.
+TextureArray read_march_array(const SetJson& set, const fs::path& directory, const std::string& name, glm::ivec3 shape) {
+    TextureArray array = read_array(set, directory, name, shape.z, TexelFormat::kRgba16f);
+    if (array.width != shape.x || array.height != shape.y)
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size", fmt::format("{} x {}", array.width, array.height),
+                                fmt::format("{} x {}", shape.x, shape.y));
+    return array;
+}
+
+void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
+    const json& march = set.at(set.root(), "march");
+    shared::MarchMedium& medium = out.march.medium;
+    constexpr double kMostArea = 1e6; // m2 over a m2
+    int at = 0;
+    for (const json& edge : set.array(march, "edges", shared::kMarchLayers + 1, shared::kMarchLayers + 1)) {
+        const json wrapped = {{"edges", edge}};
+        const std::vector<float> v = read_numbers(set, wrapped, "edges", 4, kMostArea);
+        medium.edges[at] = {v[0], v[1], v[2], v[3]};
+        if (at > 0 && !(medium.edges[at].w > medium.edges[at - 1].w))
+            set.refuse("edges", fmt::format("height {} after {}", v[3], medium.edges[at - 1].w), "rising heights");
+        ++at;
+    }
+    at = 0;
+    for (const json& layer : set.array(march, "layers", shared::kMarchLayers, shared::kMarchLayers)) {
+        const json wrapped = {{"layers", layer}};
+        const std::vector<float> v = read_numbers(set, wrapped, "layers", 2, 1.0001);
+        medium.layers[at++] = {v[0], v[1], 0, 0};
+    }
+    const std::vector<float> look = read_numbers(set, march, "look", 4, 10000);
+    medium.look = {look[0], look[1], look[2], look[3]};
+    medium.size = {out.side_m, out.canopy_m, set.real(march, "translucency", 0, 1), static_cast<float>(out.variants)};
+    constexpr int kTexels = shared::kMarchTexels, kRows = kMarchRows;
+    const int columns = kTexels >> shared::kColumnBase;
+    out.march.columns = read_march_array(set, directory, kColumnsFile, {columns, columns, out.variants * shared::kMarchLayers});
+    for (int k = 0; k < shared::kMarchSets; ++k)
+        out.march.slabs[k] = read_march_array(set, directory, slabs_file(k),
+                                              {kTexels >> k, kRows >> k, out.variants * 2 * (shared::kFinestSlabs >> k)});
+    decode_correction(read_array(set, directory, kCorrectionFile, static_cast<int>(kMarchDensities.size()), TexelFormat::kRgba32f),
+                      directory / kCorrectionFile, out.march);
+}
+
 /// One family of a level: both planes, from one file or, with `shape`, from two.
 struct FamilyFiles {
     std::string planes, shape;
@@ -348,6 +397,7 @@ GrassSet read_grass_set(const fs::path& directory) {
     if (set.whole(set.root(), "blades", 0, 1 << 30) > 0) // a far-only set has none, and no such file
         read_blades(set, directory, out);
     read_far_light(set, directory, out);
+    read_march(set, directory, out);
     read_levels(set, directory, out);
     return out;
 }

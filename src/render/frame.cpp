@@ -34,6 +34,8 @@ void set_gl_state() {
 
 bool draws_blades(const FrameSettings& settings) { return settings.blades && settings.tiers != Tiers::kShells; }
 bool draws_far(const FrameSettings& settings) { return settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells; }
+bool marches(const FrameSettings& settings) { return draws_far(settings) && settings.far == FarScheme::kMarch && settings.shells; }
+bool rasterises(const FrameSettings& settings) { return draws_far(settings) && settings.far == FarScheme::kPlanes; }
 
 } // namespace
 
@@ -115,6 +117,7 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
     }
     FieldView field;
     field.blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor, constants.eye);
+    if (settings.far == FarScheme::kPlanes)
     field.far = shells::select_far(world.grass, field.blocks, shot.bands,
                                    {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
                                     mean_bend(constants)});
@@ -133,14 +136,28 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
         build_pyramid(settings);
         draw_blades(settings, shot);
     }
-    if (draws_far(settings) && settings.shells) {
+    if (rasterises(settings) && settings.shells) {
         const gl::PassScope pass(timers, "shells");
         draw.shells.execute({far_textures, field.far.shells, block_mesh});
     }
-    if (draws_far(settings) && settings.slices) {
+    if (rasterises(settings) && settings.slices) {
         const gl::PassScope pass(timers, "slices");
         draw.slices.execute({far_textures, field.far.slices, block_mesh});
     }
+}
+
+void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, const FieldView& field) {
+    shells::MarchPass& march = passes(settings.aov).march;
+    {
+        const gl::PassScope pass(timers, "canopy");
+        canopy.require(settings.width, settings.height);
+        march.draw_canopy(canopy, static_cast<int>(field.blocks.size()), block_mesh);
+    }
+    const gl::PassScope pass(timers, "far field");
+    targets.bind_resolved();
+    targets.bind_scene_textures();
+    const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
+    march.execute({march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z))});
 }
 
 void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
@@ -167,6 +184,10 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
     if (settings.sky) {
         const gl::PassScope pass(timers, "sky");
         draw.screen.sky();
+    }
+    if (marches(settings) && !mesh_ground && !march_textures.empty()) {
+        draw_far(settings, shot, field);
+        return;
     }
     const gl::PassScope pass(timers, "resolve");
     draw.screen.resolve(targets, 1.0f / static_cast<float>(pictures), picture == 0);

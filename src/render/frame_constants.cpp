@@ -68,7 +68,7 @@ void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const Fram
     for (std::size_t k = 0; k < bands.far.size(); ++k) {
         out.far_bands[k] = bands.far[k];
     }
-    out.grass.z = geometry_only ? 0.0f : 1.0f;
+    out.grass.z = geometry_only || settings.far == FarScheme::kMarch ? 0.0f : 1.0f;
     out.mode = {static_cast<int>(settings.handover), settings.force_far_level, settings.tiers == Tiers::kShells ? 1 : 0, 0};
 }
 

@@ -16,6 +16,7 @@
 #include "render/targets.h"
 #include "shells/far_appearance.h"
 #include "shells/far_pass.h"
+#include "shells/march_pass.h"
 #include "terrain/terrain_pass.h"
 #include "wind/sources.h"
 #include "wind/wind.h"
@@ -26,10 +27,11 @@ namespace sward::render {
 struct DrawPasses {
     DrawPasses(bool aov, bool block_shapes)
         : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
-          slices(shells::FarPass::Family::kSlices, aov, block_shapes), screen(aov), meshes(aov) {}
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov), screen(aov), meshes(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;
     shells::FarPass shells, slices;
+    shells::MarchPass march;
     ScreenPasses screen;
     MeshPass meshes;
     /// The blades of a mesh; made when a scene has one.
@@ -62,6 +64,8 @@ struct Renderer::Impl {
     /// A field on elevation: what has to be ready before its passes; its passes.
     [[nodiscard]] FieldView prepare_field(const FrameSettings& settings, const Shot& shot);
     void draw_field(const FrameSettings& settings, const Shot& shot, const FieldView& field);
+    /// The far field over what is drawn, resolved.
+    void draw_far(const FrameSettings& settings, const Shot& shot, const FieldView& field);
     void build_pyramid(const FrameSettings& settings);
     void draw_mesh_ground(const FrameSettings& settings, const Shot& shot);
     void draw_objects(const FrameSettings& settings, const Shot& shot, double time_s);
@@ -83,7 +87,9 @@ struct Renderer::Impl {
     terrain::Surface surface;
     terrain::Clipmap clipmap;
     wind::Wind wind;
-    shells::FarTextures far_textures;
+    shells::MarchTextures march_textures;
+    shells::CanopyTargets canopy;
+    shells::FarTextures far_textures; ///< of the raster schemes, where the world wants them
     shells::FarAppearance far_appearance;
     terrain::BlockMesh block_mesh;
     terrain::BlockSamples block_samples;

@@ -44,7 +44,8 @@ World with_ground(World world) {
 Renderer::Impl::Impl(World inputs)
     : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
       wind(world.scene.wind, response,
-           std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), far_textures(world.grass), far_appearance(world.grass),
+           std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), march_textures(world.grass.march),
+      far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
       colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
     if (!world.surface.triangles.empty()) {
@@ -54,6 +55,10 @@ Renderer::Impl::Impl(World inputs)
     }
     make_object_meshes();
     // The GPU holds the images now; tens of megabytes are freed here.
+    world.grass.march.columns.mips = {};
+    for (grass::TextureArray& slabs : world.grass.march.slabs) {
+        slabs.mips = {};
+    }
     for (grass::FarLevel& level : world.grass.levels) {
         level.layers.mips.clear();
         level.layers.mips.shrink_to_fit();
@@ -82,6 +87,7 @@ void DrawPasses::reload(std::vector<std::string>& failures) {
     attempt(blades);
     attempt(shells);
     attempt(slices);
+    attempt(march);
     attempt(screen);
     attempt(meshes);
     if (surface_) {
@@ -125,8 +131,10 @@ FrameStats Renderer::stats() {
     if (!impl_->mesh_ground && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
+        if (settings.far == FarScheme::kPlanes) {
         stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
         stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
+        }
     }
     if (stats.blades_considered > 0) {
         const auto counts = (impl_->mesh_ground ? impl_->mesh_ground->grass().cull() : impl_->cull).counts();

@@ -26,11 +26,15 @@ enum class Tiers { kAll, kBlades, kShells, kReference };
 /// blades at one distance, kFade dissolves every blade by the same pixel dither.
 enum class HandoverMode { kRank, kOff, kHard, kFade };
 
+/// How the far field is drawn: the march; the raster scheme before it, as a comparison.
+enum class FarScheme { kMarch, kPlanes };
+
 struct FrameSettings {
     int width = 1280;
     int height = 720;
     int samples = 4;            ///< MSAA; memory and fill cost grow with it. 1, 2 or 4
     Tiers tiers = Tiers::kAll;
+    FarScheme far = FarScheme::kMarch; ///< another needs World::far to be it
     HandoverMode handover = HandoverMode::kRank;
     bool terrain = true, blades = true, shells = true, slices = true, sky = true; ///< switches of the panel
     blades::CullTests cull;     ///< how blades that cannot be seen are found
@@ -84,6 +88,7 @@ struct World {
     scene::Heightfield elevation;
     scene::DensityMask mask; ///< width 0: the slope rule
     grass::GrassSet grass;   ///< empty where the scene stands on a mesh
+    FarScheme far = FarScheme::kMarch; ///< whose textures are kept on the GPU, beside the march's
     scene::Mesh surface;     ///< terrain.surface; no triangles: a scene on elevation
     std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles and objects name, under its names
     std::map<std::filesystem::path, scene::SphereSet> spheres; ///< the meshes of objects that grass feels, packed; under the same names

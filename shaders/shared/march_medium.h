@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the far field's march knows of a grass set beside its textures, and the sizes of those.
+#ifndef SWARD_SHARED_MARCH_MEDIUM_H
+#define SWARD_SHARED_MARCH_MEDIUM_H
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kMarchLayers = 16;     // of the columns; their edges lie where rays meet blades
+SHARED_CONST int kMarchSets = 3;        // of slabs: kFinestSlabs, half and a quarter of them a patch and axis
+SHARED_CONST int kFinestSlabs = 32;
+SHARED_CONST int kMarchTexels = 512;    // a patch side holds so many of the finest texels, whose width mips count from
+SHARED_CONST int kColumnBase = 1;       // the columns' finest mip
+SHARED_CONST int kMarchColumns = 3;     // kind of a march: 0 to 2 a set of slabs, 3 the columns
+SHARED_CONST int kMarchElevations = 19; // of the correction table: 0, 5 .. 90 degrees
+SHARED_CONST int kMarchMips = 20;       // half mips of the correction table
+// What the march knows of a set beside its textures. std140.
+struct MarchMedium {
+    // Edge i of the layers, from the ground (0) to the canopy's top: blade area that stands above it over the ground's area, projected
+    // along x, from above, along z; w: its height (m).
+    vec4 edges[kMarchLayers + 1];
+    // Layer i: mean square of the upright part of its blades' tangents; mean place along the blade; unused.
+    vec4 layers[kMarchLayers];
+    vec4 look; // kd, pd, ks, ps of G4: means of the species by what is seen of them
+    vec4 size; // side of the patch (m); canopy (m); translucency, likewise; variants
+};
+#ifdef __cplusplus
+static_assert(sizeof(MarchMedium) == 16 * (2 * kMarchLayers + 1 + 2));
+#endif
+
+SHARED_END
+#endif

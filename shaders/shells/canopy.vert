@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: blocks of the clipmap (instances) and their samples. Out: the canopy's upper surface over them, as high as the wind leaves it.
+#include "lib/frame.glsl"
+#include "shared/bend.h"
+
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
+layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
+
+out vec4 ground; // slope dy/dx, dy/dz; density, tint
+out vec4 air;    // wind, canopy_sway
+
+void main() {
+    TerrainBlock block = blocks[gl_InstanceID];
+    vec2 cell = vec2(gl_VertexID % (kBlockCells + 1), gl_VertexID / (kBlockCells + 1));
+    vec2 xz = block.place.xy + cell * block.place.z;
+    BlockSample here = samples[gl_InstanceID * kBlockPosts + gl_VertexID];
+    float canopy = frame.patch_grid.w;
+    float top = canopy + bend_offset(canopy, canopy, here.motion.zw, frame.wind.mean.w).y;
+    ground = vec4(here.motion.xy, here.ground.yw);
+    air = vec4(here.motion.zw, here.sway.xy);
+    gl_Position = frame.clip_from_world * vec4(xz.x, here.ground.x + top, xz.y, 1.0);
+}

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "shells/march_textures.h"
+#include "terrain/terrain_pass.h"
+
+namespace sward::shells {
+
+/// Where rays enter the canopy: its upper surface's depth, and the ground and the air there.
+class CanopyTargets {
+public:
+    void require(int width, int height);
+    void bind_for_drawing() const { surface_.bind(depth_.shape().width, depth_.shape().height); }
+    void bind_textures() const;
+
+private:
+    gl::Texture depth_, ground_, air_;
+    gl::Framebuffer surface_;
+};
+
+/// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md).
+class MarchPass {
+public:
+    explicit MarchPass(bool aov);
+    ~MarchPass();
+    MarchPass(const MarchPass&) = delete;
+    MarchPass& operator=(const MarchPass&) = delete;
+
+    /// The canopy's upper surface over the visible blocks. Before: frame constants and block samples are bound. After: another framebuffer is.
+    void draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh);
+
+    struct Inputs {
+        const MarchTextures& textures;
+        const CanopyTargets& canopy;
+        int samples = 1;      ///< a pixel of the scene has
+        float eye_height_m = 0; ///< over the ground
+    };
+    /// Resolves the scene, seen through the far field. Before: frame constants, clipmap, the scene's textures and the resolved targets are bound.
+    void execute(const Inputs& inputs);
+    void reload();
+
+private:
+    gl::Program canopy_, march_;
+    std::uint32_t vertex_array_ = 0;
+};
+
+} // namespace sward::shells
