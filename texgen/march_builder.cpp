@@ -61,14 +61,16 @@ void divide_rows(std::vector<float>& mip, int width, int height, int layers) {
     }
 }
 
-/// The next coarser set: two slabs become one, texels twice as wide and tall.
-MarchImages coarser(const MarchImages& fine, int width, int height) {
-    MarchImages out = images_of(width / 2, height / 2, fine.layers / 2);
-    const std::vector<float> half = halved(fine.mips[0], width, height, fine.layers);
-    const std::size_t image = out.mips[0].size() / out.layers;
+/// The next coarser set: two slabs become one, texels twice as wide. Not taller: a coarse pixel still tells the heads from the leaves.
+MarchImages coarser(const MarchImages& fine) {
+    MarchImages out = images_of(fine.width / 2, fine.height, fine.layers / 2);
+    const std::size_t image = static_cast<std::size_t>(fine.width) * fine.height * 4;
     for (int n = 0; n < out.layers; ++n)
-        for (std::size_t i = 0; i < image; ++i)
-            out.mips[0][n * image + i] = 0.5f * (half[(2 * n) * image + i] + half[(2 * n + 1) * image + i]);
+        for (std::size_t i = 0; i < image / 2; ++i) {
+            const std::size_t texel = i / 4, left = (2 * texel) * 4 + i % 4;
+            for (const std::size_t slab : {2 * n * image, (2 * n + 1) * image})
+                out.mips[0][n * image / 2 + i] += 0.25f * (fine.mips[0][slab + left] + fine.mips[0][slab + left + 4]);
+        }
     return out;
 }
 
@@ -132,7 +134,7 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
     data.columns = std::move(columns_);
     data.slabs[0] = std::move(slabs_);
     for (int k = 1; k < shared::kMarchSets; ++k)
-        data.slabs[k] = coarser(data.slabs[k - 1], data.slabs[k - 1].width, data.slabs[k - 1].height);
+        data.slabs[k] = coarser(data.slabs[k - 1]);
     make_mips(data.columns);
     const std::size_t column_texels = static_cast<std::size_t>(variants_);
     for (std::size_t m = 0; m < data.columns.mips.size(); ++m) { // a layer's mean is over its own images

@@ -3,6 +3,7 @@
 // through the canopy, front to back, from where it enters it (docs/far-field.md).
 #include "lib/ground.glsl"
 #include "lib/resolved.glsl"
+#include "lib/sway.glsl"
 #include "lib/tiers.glsl"
 #include "shared/bend.h"
 #include "shared/march_medium.h"
@@ -20,7 +21,8 @@ uniform float eye_height; // over the ground (m)
 in vec2 ndc;
 
 const float kNever = 1e9;
-const int kCrossings = 3;         // of the canopy by one ray, at crests
+const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
+const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
 const float kOtherDensity = 0.4;  // of the correction's second image
 
@@ -63,8 +65,7 @@ MarchPath path_of(View view, Place place, float entry, float height) {
         float rise = ground_at(ahead) - ground_at(at.xz) - dot(place.ground.xy, ahead - at.xz);
         path.height.z = -rise / (reach * reach);
     }
-    // March no further than where it is on the ground for sure, or has left the canopy's reach.
-    path.height.w = 4.0 * reach + canopy;
+    path.height.w = 1.5 * reach + 0.1 * canopy; // beyond, the ground is another one
     return path;
 }
 
@@ -94,8 +95,17 @@ float far_share(vec3 world) {
     return 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy);
 }
 
-// The canopy from `entry` on, until it is opaque, the ray has left it or is on the ground. Returns where it has left it, else kNever.
-float march(View view, Place place, MarchPath path, float entry, MarchPlan plan, inout Seen seen) {
+// Where a stretch ended: distance along the ray, kNever where nothing is left to see; height over the ground there.
+struct Left {
+    float distance, height;
+};
+
+Left left_at(MarchPath path, MarchWalk walk, float entry) {
+    return Left(walk.layer < 0 ? kNever : entry + walk.s, walk.layer >= kMarchLayers ? path.bend.w : march_height(path, walk.s));
+}
+
+// The canopy from `entry` on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end.
+Left march(View view, Place place, MarchPath path, float entry, MarchPlan plan, inout Seen seen) {
     march_settle(plan);
     seen.kind = plan.kind;
     seen.axis = plan.axis;
@@ -131,23 +141,23 @@ float march(View view, Place place, MarchPath path, float entry, MarchPlan plan,
         if (all(lessThan(seen.through, vec4(kMarchEnd)))) {
             seen.radiance /= 1.0 - dot(seen.through, vec4(0.25));
             seen.through = vec4(0.0);
-            return kNever;
+            return Left(kNever, 0.0);
         }
     }
-    return walk.layer >= kMarchLayers ? entry + walk.s : kNever;
+    return left_at(path, walk, entry);
 }
 
 // The canopy from `entry` on, by the kinds of texture that its footprint and elevation ask for. Returns likewise.
-float see(View view, Place place, MarchPath path, float entry, inout Seen seen) {
+Left see(View view, Place place, MarchPath path, float entry, inout Seen seen) {
     if (place.ground.z <= 0.002) {
         MarchWalk walk = march_begin(path);
         march_advance(path, walk, vec3(kNever, kNever, 1.0));
-        return walk.layer >= kMarchLayers ? entry + walk.s : kNever;
+        return left_at(path, walk, entry);
     }
     MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry, place.ground.z));
     vec2 shares = march_shares(plan);
     int set = march_slab_set(plan, view.dither);
-    float left = kNever;
+    Left left = Left(kNever, 0.0);
     Seen before = seen;
     vec3 radiance = vec3(0.0);
     vec4 through = vec4(0.0);
@@ -220,24 +230,29 @@ void main() {
     Place place = Place(texelFetch(canopy_ground, pixel, 0), texelFetch(canopy_air, pixel, 0));
     float entry = depth > 0.0 ? kNear_m / (depth * axis) : kNever;
     float height = frame.patch_grid.w;
-    if (eye_height < frame.patch_grid.w) { // the eye stands in the canopy
-        entry = kNear_m;
-        height = eye_height;
-        place = place_at(view, 0.0, place.air);
+    if (eye_height < frame.patch_grid.w) { // the eye may stand in the canopy
+        vec2 wind = wind_at(frame.eye.xz);
+        if (eye_height < frame.patch_grid.w + bend_offset(frame.patch_grid.w, frame.patch_grid.w, wind, frame.wind.mean.w).y + kNear_m) {
+            entry = kNear_m;
+            height = eye_height;
+            place = place_at(view, 0.0, vec4(wind, sway_at(frame.eye.xyz - vec3(0.0, eye_height, 0.0), wind).xy));
+        }
     }
     Seen seen = Seen(vec3(0.0), vec4(1.0), kNever, kMarchColumns, 0);
     float farthest = max(max(view.scene.x, view.scene.y), max(view.scene.z, view.scene.w));
-    for (int crossing = 0; crossing < kCrossings && entry < farthest; ++crossing) {
+    for (int stretch = 0; stretch < kStretches && entry < farthest; ++stretch) {
         vec3 before = seen.radiance;
         vec4 share = seen.through;
-        float left = see(view, place, path_of(view, place, entry, height), entry, seen);
+        MarchPath path = path_of(view, place, entry, height);
+        Left left = see(view, place, path, entry, seen);
         vec4 haze = haze_of(frame.light, view.way * min(seen.half_way, entry + 1.0));
         seen.radiance = before + (seen.radiance - before) * haze.a + haze.rgb * dot(share - seen.through, vec4(0.25));
-        if (left >= kNever || crossing + 1 == kCrossings) {
+        if (left.distance >= kNever || stretch + 1 == kStretches || all(lessThan(seen.through, vec4(kMarchEnd)))) {
             break;
         }
-        height = frame.patch_grid.w;
-        entry = next_entry(view, left + 0.1, min(farthest, 50000.0), height);
+        bool over_it = left.height > 0.999 * path.bend.w;
+        height = over_it ? path.bend.w : left.height;
+        entry = over_it ? next_entry(view, left.distance + 0.1, min(farthest, kHorizon), height) : left.distance;
         place = place_at(view, entry, place.air);
     }
     write_first_sample(pixel);

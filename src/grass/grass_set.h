@@ -80,7 +80,7 @@ struct FarMedium {
     /// Factors on the optical depth: kMarchDensities x half mips x elevations x kinds, the last fastest.
     std::vector<float> correction;
 };
-inline constexpr int kMarchRows = 48; ///< of a slab of the finest set; the next has half as many
+inline constexpr int kMarchRows = 48; ///< of a slab
 inline constexpr std::array<double, 2> kMarchDensities = {1.0, 0.4};
 inline constexpr std::size_t kMarchCorrections =
     kMarchDensities.size() * shared::kMarchMips * shared::kMarchElevations * (shared::kMarchSets + 1);

@@ -293,7 +293,7 @@ void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
     out.march.columns = read_march_array(set, directory, kColumnsFile, {columns, columns, out.variants * shared::kMarchLayers});
     for (int k = 0; k < shared::kMarchSets; ++k)
         out.march.slabs[k] = read_march_array(set, directory, slabs_file(k),
-                                              {kTexels >> k, kRows >> k, out.variants * 2 * (shared::kFinestSlabs >> k)});
+                                              {kTexels >> k, kRows, out.variants * 2 * (shared::kFinestSlabs >> k)});
     decode_correction(read_array(set, directory, kCorrectionFile, static_cast<int>(kMarchDensities.size()), TexelFormat::kRgba32f),
                       directory / kCorrectionFile, out.march);
 }
