@@ -20,7 +20,8 @@ from sward_image import sward_cli
 ROWS, COLUMNS = 96, 160
 TIME = 2.0
 STEP = 1e-5  # seconds from pose to pose of one path: nothing moves in it
-CANOPY_M = 0.3
+CANOPY_M = 0.3  # where grass is seen on the whole
+LOD_EYE_M = 600
 LIMITS = {"coverage": 0.03, "luminance": 0.02, "contrast_low": 0.75, "contrast_high": 1.25, "sparkle": 1.3, "hue": 2.0,
           "period": 1.2}
 
@@ -38,13 +39,8 @@ class View:
     def focal(self):
         return ROWS / 2 / math.tan(math.radians(self.fov / 2))
 
-    def reach(self):
-        """Metres from the eye to the farthest ground of the picture."""
-        height = self.distance * math.sin(math.radians(self.elevation))
-        side = math.atan(COLUMNS / 2 / self.focal)
-        return height / math.sin(math.radians(max(self.elevation - self.fov / 2, 1))) / math.cos(side) + 2
 
-
+# From the end of the hand-over on; grazing ones with fewer samples, for they see more blades than all the others.
 VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
          "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
@@ -144,14 +140,17 @@ def split(fine_picture, fine):
     return halves
 
 
-def reference_arguments(view):
-    return ("--tiers", "reference", "--reference-distance", f"{view.reach():.1f}", "--reference-grid", "1")
+def reference_arguments(eye):
+    """How the wind poses a blade follows its size in pixels, and here pixels are small: with the eye of the tiers LOD_EYE_M up, all have a far
+    blade's pose. The distance is measured from there too; what the view shows bounds the work. One frame of a large picture, and
+    not many of a small one: its samples are boxes side by side, where jittered frames of four samples each blur over two pixels."""
+    return ("--tiers", "reference", "--reference-distance", "1000", "--reference-grid", "1", "--lod-eye", f"{eye[0]},{LOD_EYE_M},{eye[2]}")
 
 
 def reference(land, view, cache=None):
     """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of all it is made of."""
-    arguments = reference_arguments(view)
     identity, poses = sward_image.meadow_set() / "set.json", land.poses(view)
+    arguments = reference_arguments(poses[0][0])
     key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}".encode() + identity.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
