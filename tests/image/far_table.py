@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the figures of the far field against every blade as geometry, for any arguments of `sward`:
 
-    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--away] [--period] [-- --far planes]
+    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--away] [--period] [--ring] [-- --far planes]
 
 SWARD_BIN_DIR names the folder of the programs (default build/release/bin). References are kept in `image/far-references` beside it, under the
 hash of scene, view and set; --fresh makes them again, --pictures DIR writes truth and found side by side."""
@@ -45,6 +45,7 @@ def main():
     parser.add_argument("--wind", default="0", help="m/s, one or more with commas")
     parser.add_argument("--away", action="store_true", help="the sun stands behind the slope")
     parser.add_argument("--period", action="store_true", help="the spectrum at the patch's period too")
+    parser.add_argument("--ring", action="store_true", help="rings on the level field too")
     parser.add_argument("--fresh", action="store_true", help="makes the references again")
     parser.add_argument("--pictures", type=Path, help="folder for truth and found side by side")
     parser.add_argument("arguments", nargs="*", help="of sward, after --")
@@ -66,6 +67,8 @@ def main():
                     write_picture(options.pictures / f"{land.name()}_{name}.png", truth, found)
             if options.period:
                 print(period_line(land, options.arguments), flush=True)
+    if options.ring:
+        print("ring     | contrast {:.3f}  luminance {:.3f}".format(*far_views.ring_change(options.arguments)))
     sys.exit(1 if over else 0)
 
 

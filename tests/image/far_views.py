@@ -20,7 +20,8 @@ from sward_image import sward_cli
 ROWS, COLUMNS = 96, 160
 TIME = 2.0
 STEP = 1e-5  # seconds from pose to pose of one path: nothing moves in it
-CANOPY_M = 0.3
+CANOPY_M = 0.3  # where grass is seen on the whole
+LOD_EYE_M = 600
 LIMITS = {"coverage": 0.03, "luminance": 0.02, "contrast_low": 0.75, "contrast_high": 1.25, "sparkle": 1.3, "hue": 2.0,
           "period": 1.2}
 
@@ -38,16 +39,14 @@ class View:
     def focal(self):
         return ROWS / 2 / math.tan(math.radians(self.fov / 2))
 
-    def reach(self):
-        """Metres from the eye to the farthest ground of the picture."""
-        height = self.distance * math.sin(math.radians(self.elevation))
-        side = math.atan(COLUMNS / 2 / self.focal)
-        return height / math.sin(math.radians(max(self.elevation - self.fov / 2, 1))) / math.cos(side) + 2
 
-
+# From the end of the hand-over on; grazing ones with fewer samples, for they see more blades than all the others.
 VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
-         "at10_20": View(10, 20), "at10_42": View(10, 42, 4.4), "at4_25": View(4, 25, 4.4)}
+         "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
+
+RING = View(10, 70, 16)  # 18 degrees below the horizon to 2
+RING_SIZE, RING_YAWS = (240, 240), range(0, 300, 50)
 
 
 @dataclass(frozen=True)
@@ -75,19 +74,20 @@ class Land:
             right = (x + quarter * view.distance, y, z), yaw, pitch
         return [((x, y, z), yaw, pitch), right, ((x, y, z), yaw, pitch - math.degrees(quarter))]
 
-    def scene(self, view):
+    def scene(self, fov, poses):
+        """A scene whose path `view` stands in each pose for a moment."""
         keys = ", ".join(f"{{ t = {TIME + i * STEP:.6f}, position = [{p[0]:.9f}, {p[1]:.9f}, {p[2]:.9f}], yaw_deg = {yaw:.9f}, "
-                         f"pitch_deg = {pitch:.9f} }}" for i, (p, yaw, pitch) in enumerate(self.poses(view)))
-        return sward_image.scene_text([f"[path.view]\nagl = false\nfov_deg = {view.fov}\nkeys = [{keys}]\n"], self.wind_ms,
+                         f"pitch_deg = {pitch:.9f} }}" for i, (p, yaw, pitch) in enumerate(poses))
+        return sward_image.scene_text([f"[path.view]\nagl = false\nfov_deg = {fov}\nkeys = [{keys}]\n"], self.wind_ms,
                                       f"[sun]\nazimuth_deg = {330 if self.away else 150}\nelevation_deg = 40\n")
 
-    def write(self, folder, view):
+    def write(self, folder, fov, poses):
         side, spacing = 33, 16.0
         rise = math.tan(math.radians(self.slope_deg)) * spacing
         heights = [100 + ((side - 1) / 2 - row) * rise for row in range(side) for _ in range(side)]
         (folder / "flat.raw").write_bytes(struct.pack(f"<{side * side}f", *heights))
         (folder / "flat.json").write_text(json.dumps({"width": side, "height": side, "spacing_m": [spacing, spacing]}))
-        (folder / "scene.toml").write_text(self.scene(view))
+        (folder / "scene.toml").write_text(self.scene(fov, poses))
 
 
 @dataclass
@@ -106,20 +106,20 @@ def load(path):
     return np.concatenate([channels["color"], channels["coverage"][..., None]], axis=2)
 
 
-def render(land, view, arguments, size=(COLUMNS, ROWS), poses=3):
-    """The poses of a view, in one run of the program. Raises AssertionError with its message where it fails."""
+def render(land, fov, poses, arguments, size=(COLUMNS, ROWS)):
+    """A picture of each pose, and processor seconds, in one run of the program. Raises AssertionError with its message where it fails."""
     with tempfile.TemporaryDirectory(prefix="sward-far-") as name:
         folder = Path(name)
-        land.write(folder, view)
+        land.write(folder, fov, poses)
         result = sward_cli.run("sward", "render", "scene.toml", "-o", "out%d.exr", "--path", "view", "--time", TIME, "--fixed-timestep", STEP,
-                               "--frames", f"0:{poses - 1}", "--size", f"{size[0]}x{size[1]}", "--aov", "color,coverage,tier", "-q",
-                               *arguments, cwd=folder, timeout=300)
+                               "--frames", f"0:{len(poses) - 1}", "--size", f"{size[0]}x{size[1]}", "--aov", "color,coverage,tier", "-q",
+                               *arguments, cwd=folder, timeout=1200)
         assert result.code == 0, f"{arguments}: {result.err}"
-        return [load(folder / f"out{i}.exr") for i in range(poses)], result.cpu_s
+        return [load(folder / f"out{i}.exr") for i in range(len(poses))], result.cpu_s
 
 
 def far(land, view, arguments=()):
-    pictures, seconds = render(land, view, arguments)
+    pictures, seconds = render(land, view.fov, land.poses(view), arguments)
     return Pictures(*pictures, seconds)
 
 
@@ -140,20 +140,23 @@ def split(fine_picture, fine):
     return halves
 
 
-def reference_arguments(view):
-    return ("--tiers", "reference", "--reference-distance", f"{view.reach():.1f}", "--reference-grid", "1")
+def reference_arguments(eye):
+    """How the wind poses a blade follows its size in pixels, and here pixels are small: with the eye of the tiers LOD_EYE_M up, all have a far
+    blade's pose. The distance is measured from there too; what the view shows bounds the work. One frame of a large picture, and
+    not many of a small one: its samples are boxes side by side, where jittered frames of four samples each blur over two pixels."""
+    return ("--tiers", "reference", "--reference-distance", "1000", "--reference-grid", "1", "--lod-eye", f"{eye[0]},{LOD_EYE_M},{eye[2]}")
 
 
 def reference(land, view, cache=None):
     """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of all it is made of."""
-    arguments = reference_arguments(view)
-    identity = sward_image.meadow_set() / "set.json"
-    key = hashlib.sha256(f"{land}{view}{land.scene(view)}{arguments}{ROWS}x{COLUMNS}".encode() + identity.read_bytes()).hexdigest()[:20]
+    identity, poses = sward_image.meadow_set() / "set.json", land.poses(view)
+    arguments = reference_arguments(poses[0][0])
+    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}".encode() + identity.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
         with np.load(path) as kept:
             return [Pictures(*(kept[f"{half}{i}"].astype(np.float64) for i in range(3))) for half in "ab"]
-    pictures, seconds = render(land, view, arguments, (COLUMNS * view.fine, ROWS * view.fine), poses=1)
+    pictures, seconds = render(land, view.fov, poses[:1], arguments, (COLUMNS * view.fine, ROWS * view.fine))
     halves = split(pictures[0], view.fine)
     print(f"reference {land.name()} {view}: {seconds:.0f} s", flush=True)
     if path:
@@ -193,6 +196,17 @@ def ground_picture(values, view, metre_px, margin=0.94):
     up = forward * math.sin(elevation) - height * math.cos(elevation)
     column, row = COLUMNS / 2 - 0.5 + view.focal * right / depth, ROWS / 2 - 0.5 - view.focal * up / depth
     return bilinear(values, row, column)
+
+
+def ring_change(arguments=()):
+    """spectrum.ring of the level field, seen in RING_YAWS directions so that single flowers do not count."""
+    eye = (3.0, 100 + RING.distance * math.sin(math.radians(RING.elevation)), 5.0)
+    poses = [(eye, yaw, -RING.elevation) for yaw in RING_YAWS]
+    size = RING_SIZE
+    pictures, _ = render(Land(), RING.fov, poses, arguments, size)
+    light = np.concatenate([spectrum.luminance(p[..., :3]) for p in pictures], axis=1)
+    angles = RING.elevation - np.degrees(np.arctan((size[1] / 2 - 0.5 - np.arange(size[1])) * 2 / size[1] * math.tan(math.radians(RING.fov / 2))))
+    return spectrum.ring(light, (eye[1] - 100 - CANOPY_M) / np.sin(np.radians(angles)))
 
 
 def bilinear(values, row, column):

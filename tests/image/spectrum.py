@@ -40,10 +40,9 @@ def blurred(values, sigma):
     reach = int(np.ceil(4 * sigma))
     kernel = np.exp(-0.5 * (np.arange(-reach, reach + 1) / sigma) ** 2)
     kernel /= kernel.sum()
-    for axis in (0, 1):
-        padded = np.pad(values, [(reach, reach) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
-        windows = np.lib.stride_tricks.sliding_window_view(padded, kernel.size, axis=axis)
-        values = windows @ kernel
+    for _ in range(2):  # along the rows' index, then, transposed, along the columns'
+        padded = np.pad(values, ((reach, reach), (0, 0)), mode="edge")
+        values = sum(share * padded[i:i + values.shape[0]] for i, share in enumerate(kernel)).T
     return values
 
 
@@ -64,8 +63,8 @@ def octaves(values, land=None):
 def contrast(values, land=None):
     """Standard deviation over mean in each octave."""
     values = check_luminance(values)
-    mean = values.mean() if land is None else values[land].mean()
-    return np.array([part.std() for part in octaves(values, land)]) / mean
+    parts = octaves(values, land)
+    return np.array([part.std() for part in parts]) / (values.mean() if land is None else values[land].mean())
 
 
 def common_contrast(a, b, land=None):
@@ -123,18 +122,18 @@ def period(ground, metre_px, patch_m=2.0):
     return float(np.mean([amplitude[p] for p in peaks]) / np.median(near))
 
 
-def ring(values, distance_m, octave=1, step=1.05):
+def ring(values, distance_m, octave=1, step=1.05, least_rows=5):
     """Largest change of contrast and of mean luminance between neighbouring bands of distance, each 5 % longer than the one before, as
-    shares of the smaller. `distance_m`: of each row's ground, far to near. Contrast is of one octave, so at one size in
-    the picture, and freed of the trend that all bands share: with distance a pixel holds more blades. Bands of less than two rows
-    are left out."""
+    shares of the smaller. `distance_m`: of each row's ground, far to near; several pictures may stand side by side. Contrast is of one
+    octave, so at one size in the picture, and freed of the trend that all bands share: with distance a pixel holds more blades.
+    Bands of fewer rows are left out: they hold too little to tell."""
     values, distance = check_luminance(values), np.asarray(distance_m, dtype=np.float64)
     if distance.shape != values.shape[:1] or not (np.diff(distance) < 0).all():
         raise NoPicture(f"found {distance.shape} distances for {values.shape}, expected one a row, falling")
     part = octaves(values)[octave].reshape(values.shape)
     band = np.floor(np.log(distance) / np.log(step)).astype(int)
     rows = [np.flatnonzero(band == k) for k in np.unique(band)]
-    rows = [r for r in rows if r.size >= 2]
+    rows = [r for r in rows if r.size >= least_rows]
     if len(rows) < 8:
         raise NoPicture(f"found {len(rows)} bands of distance, expected 8 at least")
     mean = np.log([values[r].mean() for r in rows])

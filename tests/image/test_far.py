@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The far field as a picture, not as a mean: contrast from size to size, sparkle, hue, period and rings beside coverage and luminance,
+against every blade as geometry. Every measure must fail the scheme of planes somewhere. `far_table.py` prints the same figures for
+any arguments."""
+import unittest
+
+import numpy as np
+
+import far_views
+import spectrum
+from far_views import LIMITS, PLAN, VIEWS, Land
+from sward_image import main
+
+BUILDS = {"march": (), "planes": ("--far", "planes")}
+LEVEL, SLOPE, WINDY = Land(), Land(25), Land(0, 12)
+CASES = [(LEVEL, "nadir20"), (LEVEL, "at60_12"), (LEVEL, "at30_40"), (LEVEL, "at10_20"), (LEVEL, "at4_25"),
+         (SLOPE, "nadir20"), (SLOPE, "at30_15"), (Land(25, 0, away=True), "at30_15"), (WINDY, "nadir20"), (WINDY, "at30_15")]
+PLANES_CASES = CASES[:3]
+MEASURES = ("coverage", "luminance", "hue", "contrast0", "contrast1", "contrast2", "contrast3", "sparkle_right", "sparkle_down")
+RING = 0.10  # change of contrast or luminance from 5 % of distance to the next
+
+
+class Far(unittest.TestCase):
+    truths, measured = {}, {}
+
+    def truth(self, land, view):
+        """Two renders of independent noise, made once."""
+        if (land, view) not in self.truths:
+            self.truths[land, view] = far_views.reference(land, view)
+        return self.truths[land, view]
+
+    def figures(self, land, name, build):
+        if (land, name, build) not in self.measured:
+            truth, found = self.truth(land, VIEWS[name]), far_views.far(land, VIEWS[name], BUILDS[build])
+            self.measured[land, name, build] = result = far_views.figures(truth, found)
+            print(f"{build:6} {far_views.line(land, name, result)}", flush=True)
+        return self.measured[land, name, build]
+
+    def period(self, build):
+        """Of the build's picture from straight above over the truth's."""
+        truth = self.truth(LEVEL, PLAN)
+        still = (truth[0].still + truth[1].still) / 2 if build == "truth" else far_views.far(LEVEL, PLAN, BUILDS[build]).still
+        return spectrum.period(far_views.ground_picture(spectrum.luminance(still[..., :3]), PLAN, 8), 8)
+
+    def test_march(self):
+        print(far_views.HEADER)
+        for land, name in CASES:
+            bad = far_views.failures(self.figures(land, name, "march"))
+            for measure in MEASURES:
+                with self.subTest(land=land.name(), view=name, measure=measure):
+                    self.assertNotIn(measure, bad)
+
+    def test_catches_planes(self):
+        missed = set(MEASURES)
+        for land, name in PLANES_CASES:
+            missed -= set(far_views.failures(self.figures(land, name, "planes")))
+        self.assertEqual(missed, set(), "measures that the planes pass everywhere")
+
+    def test_reference(self):
+        """The truth holds grass, varies by more than the floor where figures compare it, and passes every limit against its own halves."""
+        for land, name in CASES[:3]:
+            with self.subTest(land=land.name(), view=name):
+                a, b = self.truth(land, VIEWS[name])
+                result = far_views.figures((a, b), far_views.Pictures(*((getattr(a, w) + getattr(b, w)) / 2 for w in ("still", "right", "down"))))
+                self.assertEqual(far_views.failures(result), [])
+                self.assertGreater(result["truth_coverage"], 0.2)
+                self.assertGreater(result["truth_contrast"].min(), spectrum.FLOOR)
+                self.assertTrue(np.allclose(result["contrast"], 1, atol=0.15), result["contrast"])
+
+    def test_period(self):
+        expected = self.period("truth")
+        march, planes = (self.period(build) for build in BUILDS)
+        print(f"period: truth {expected:.2f}, march {march / expected:.2f} and planes {planes / expected:.2f} times as much")
+        self.assertLessEqual(march / expected, LIMITS["period"])
+
+    def test_ring(self):
+        found = {build: far_views.ring_change(arguments) for build, arguments in BUILDS.items()}
+        for build, (contrast, light) in found.items():
+            print(f"ring: {build}: contrast {100 * contrast:.1f} %, luminance {100 * light:.1f} %")
+        self.assertLessEqual(max(found["march"]), RING)
+
+
+if __name__ == "__main__":
+    main()
