@@ -17,15 +17,19 @@ struct SurfacePiece {
     glm::dvec3 place{0};  ///< patch coordinates, x and z on the torus (m)
     glm::dvec3 area{0};   ///< projected along the axes (m2)
     glm::vec3 albedo{0};  ///< linear reflectance
-    double upright = 0;   ///< square of the upright part of the blade's tangent there
+    glm::vec3 tangent{0, 1, 0}; ///< unit, up
+    float rank = 0.5f;
     double along = 0;     ///< place along the blade, 0 root .. 1 tip
     std::size_t species = 0;
 };
 
-/// The march's textures in floats, with all mips: rgb albedo times density, a density, both relative to the mean of their height.
+/// The march's textures in floats, with all mips. Of a texel: albedo times density, density, mean tangent times density, rank times
+/// density; densities are relative to the mean of their height.
 struct MarchImages {
+    static constexpr std::size_t kFloats = 8;
+    static constexpr std::size_t kDensity = 3;
     int width = 0, height = 0, layers = 0;
-    std::vector<std::vector<float>> mips; ///< layer-major, row-major, 4 floats a texel
+    std::vector<std::vector<float>> mips; ///< layer-major, row-major
 };
 
 struct MarchData {
@@ -43,12 +47,16 @@ public:
     [[nodiscard]] MarchData finish(std::span<const shared::GrassAppearance> looks);
 
 private:
-    void add_to(MarchImages& images, std::size_t texel, const SurfacePiece& piece, double area) const;
     double side_, canopy_;
     int variants_;
     std::array<double, shared::kMarchLayers + 1> edges_{};
     std::array<glm::dvec3, shared::kMarchLayers> areas_{};
-    std::array<glm::dvec3, shared::kMarchLayers> moments_{}; ///< area; times upright; times along
+    /// Of a layer: area as the columns weight it, the same times the tangent's upright part and times the place along the blade.
+    std::array<glm::dvec3, shared::kMarchLayers> moments_{};
+    struct Tint {
+        glm::dvec4 columns{0}, level{0}, steep{0}; ///< albedo times area, area, as each sees it
+    };
+    std::array<Tint, shared::kMarchLayers> tints_{};
     std::vector<double> species_;                            ///< area of each, weighted by height
     MarchImages columns_, slabs_;
 };

@@ -57,7 +57,7 @@ private:
         const auto texel = [&](int x, int y) {
             x = (x + w) % w;
             y = repeat_v_ ? (y + h) % h : std::clamp(y, 0, h - 1);
-            return images_.mips[static_cast<std::size_t>(mip)][((static_cast<std::size_t>(place.z) * h + y) * w + x) * 4 + 3];
+            return images_.mips[static_cast<std::size_t>(mip)][((static_cast<std::size_t>(place.z) * h + y) * w + x) * MarchImages::kFloats + MarchImages::kDensity];
         };
         return std::lerp(std::lerp(texel(column, row), texel(column + 1, row), a), std::lerp(texel(column, row + 1), texel(column + 1, row + 1), a), b);
     }

@@ -54,13 +54,19 @@ ordered_json numbers(const shared::vec4& v) {
 }
 
 ordered_json march_json(const grass::FarMedium& march) {
-    ordered_json out = {{"columns", grass::kColumnsFile}, {"correction", grass::kCorrectionFile}};
-    for (int k = 0; k < shared::kMarchSets; ++k)
+    ordered_json out = {{"columns", grass::kColumnsFile}, {"column_fibres", grass::kColumnFibresFile}, {"correction", grass::kCorrectionFile}};
+    for (int k = 0; k < shared::kMarchSets; ++k) {
         out["slabs"].push_back(grass::slabs_file(k));
+        out["slab_fibres"].push_back(grass::slab_fibres_file(k));
+    }
     for (const shared::vec4& edge : march.medium.edges)
         out["edges"].push_back(numbers(edge));
     for (const shared::vec4& layer : march.medium.layers)
         out["layers"].push_back({decimal(layer.x), decimal(layer.y)});
+    for (int i = 0; i < shared::kMarchLayers; ++i) {
+        out["level_tint"].push_back(rgb(march.medium.level_tint[i]));
+        out["steep_tint"].push_back(rgb(march.medium.steep_tint[i]));
+    }
     out["look"] = numbers(march.medium.look);
     out["translucency"] = decimal(march.medium.size.z);
     return out;

@@ -63,9 +63,12 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     const auto add_march = [&](std::string name, const grass::TextureArray& array) {
         parts.push_back({std::move(name), [&array, &options] { return grass::encode_ktx2(array, options.compression); }});
     };
-    for (int k = 0; k < shared::kMarchSets; ++k)
-        add_march(grass::slabs_file(k), set.march.slabs[static_cast<std::size_t>(k)]);
-    add_march(grass::kColumnsFile, set.march.columns);
+    for (int k = 0; k < shared::kMarchSets; ++k) {
+        add_march(grass::slabs_file(k), set.march.slabs[static_cast<std::size_t>(k)].density);
+        add_march(grass::slab_fibres_file(k), set.march.slabs[static_cast<std::size_t>(k)].fibres);
+    }
+    add_march(grass::kColumnsFile, set.march.columns.density);
+    add_march(grass::kColumnFibresFile, set.march.columns.fibres);
     parts.push_back({grass::kCorrectionFile, [&set, &options] {
                          return grass::encode_ktx2(grass::encode_correction(set.march), options.compression);
                      }});

@@ -19,13 +19,16 @@ struct MarchMedium {
     // Edge i of the layers, from the ground (0) to the canopy's top: blade area that stands above it over the ground's area, projected
     // along x, from above, along z; w: its height (m).
     vec4 edges[kMarchLayers + 1];
-    // Layer i: mean square of the upright part of its blades' tangents; mean place along the blade; unused.
+    // Layer i: mean upright part of its blades' tangents; mean place along the blade; unused.
     vec4 layers[kMarchLayers];
+    // Layer i: albedo as rays along the ground and rays from above see it, over the mean that the columns hold.
+    vec4 level_tint[kMarchLayers];
+    vec4 steep_tint[kMarchLayers];
     vec4 look; // kd, pd, ks, ps of G4: means of the species by what is seen of them
     vec4 size; // side of the patch (m); canopy (m); translucency, likewise; variants
 };
 #ifdef __cplusplus
-static_assert(sizeof(MarchMedium) == 16 * (2 * kMarchLayers + 1 + 2));
+static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + 2));
 #endif
 
 SHARED_END

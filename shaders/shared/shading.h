@@ -135,6 +135,11 @@ struct GrassPoint {
     float along;  // mean square of the tangents' part along the axis: 1 for one blade, 1/3 every way alike
 };
 
+// GrassPoint::along of blades whose mean tangent is so long: 1 for one blade; within 0.05 for blades spread about their axis.
+SHARED_FN float along_axis(float mean_length) {
+    return clamp(1.0f - (4.0f / 3.0f) * (1.0f - mean_length), 1.0f / 3.0f, 1.0f);
+}
+
 // Radiance toward the eye (unit direction to_eye) of grass. `gloss`: kd, pd, ks, ps of G4. Of many blades the means: of the square of a
 // cosine, and of the highlight as that of a cosine spread by its variance.
 SHARED_FN vec3 shade_fibres(vec4 gloss, float translucency, Light light, GrassPoint point, vec3 to_eye) {

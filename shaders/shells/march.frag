@@ -11,8 +11,8 @@
 layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
 #include "shared/march.h"
 
-layout(binding = TEX_MARCH_COLUMNS) uniform sampler2DArray columns;
-layout(binding = TEX_MARCH_SLABS) uniform sampler2DArray slabs[kMarchSets];
+layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities[kMarchSets + 1];
+layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres[kMarchSets + 1];
 layout(binding = TEX_MARCH_CORRECTION) uniform sampler2DArray correction;
 layout(binding = TEX_CANOPY_DEPTH) uniform sampler2D canopy_depth;
 layout(binding = TEX_CANOPY_GROUND) uniform sampler2D canopy_ground;
@@ -24,6 +24,7 @@ const float kNever = 1e9;
 const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
 const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
+const float kFibresFrom = 3.5, kFibresTo = 4.5; // mips: beyond, tangents are the layer's mean
 const float kOtherDensity = 0.4;  // of the correction's second image
 
 struct View {
@@ -76,15 +77,32 @@ float correction_at(MarchPlan plan) {
     return max(mix(texture(correction, vec3(uv, 0.0))[plan.kind], texture(correction, vec3(uv, 1.0))[plan.kind], thin), 0.05);
 }
 
-vec4 texel_at(MarchPlan plan, MarchStep taken) {
+vec3 texel_place(MarchPlan plan, MarchStep taken) {
     vec2 place = (taken.rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
     int variant = tile_variant(ivec2(floor(place)) + frame.patch_tile.xy, frame.patch_tile.z);
-    vec3 uv = march_texel(plan, taken, vec3(place, float(variant)));
-    float mip = taken.mip - march_base(plan.kind);
-    if (plan.kind == kMarchColumns) {
-        return textureLod(columns, uv, mip);
+    return march_texel(plan, taken, vec3(place, float(variant)));
+}
+
+// A sampler of an array may be picked by a number that is the same for all alone.
+vec4 density_at(int kind, vec3 uv, float mip) {
+    return kind == 0 ? textureLod(densities[0], uv, mip) : kind == 1 ? textureLod(densities[1], uv, mip)
+         : kind == 2 ? textureLod(densities[2], uv, mip) : textureLod(densities[3], uv, mip);
+}
+vec4 fibres_at(int kind, vec3 uv, float mip) {
+    return kind == 0 ? textureLod(fibres[0], uv, mip) : kind == 1 ? textureLod(fibres[1], uv, mip)
+         : kind == 2 ? textureLod(fibres[2], uv, mip) : textureLod(fibres[3], uv, mip);
+}
+
+// Mean tangent of the blades at a step, as the wind turns them: read where a pixel tells blades apart, else the layer's.
+vec3 mean_tangent(MarchPath path, MarchPlan plan, MarchStep taken, vec3 uv) {
+    vec3 upright = vec3(0.0, medium.layers[taken.layer].x, 0.0);
+    float told = 1.0 - smoothstep(kFibresFrom, kFibresTo, taken.mip);
+    if (told > 0.0) {
+        vec4 texel = fibres_at(plan.kind, uv, taken.mip - march_base(plan.kind));
+        upright = mix(upright, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0), told);
     }
-    return plan.kind == 0 ? textureLod(slabs[0], uv, mip) : plan.kind == 1 ? textureLod(slabs[1], uv, mip) : textureLod(slabs[2], uv, mip);
+    float angle = path.bend.z * taken.rest.y;
+    return vec3(upright.x, 0.0, upright.z) + upright.y * vec3(path.bend.x * sin(angle), cos(angle), path.bend.y * sin(angle));
 }
 
 // Share of the blades there that the near tier leaves.
@@ -114,12 +132,15 @@ Left march(View view, Place place, MarchPath path, float entry, MarchPlan plan, 
     float slope = dot(normal, frame.light.to_sun.xyz);
     Light light = light_in_sway(frame.light, place.air.zw);
     vec3 tint = sward_tint(place.ground.w);
+    vec3 crossed = abs(vec3(medium.edges[0]) * vec3(plan.level.x, view.way.y, plan.level.y));
+    float steep = crossed.y / max(crossed.x + crossed.y + crossed.z, 1e-6);
     bool handing_over = entry < frame.handover.y + frame.patch_grid.z;
     MarchWalk walk = march_begin(path);
     vec4 ends = mix(view.scene - entry, vec4(kNever), greaterThan(view.scene - entry, vec4(kOnGround * min(path.height.x / max(-path.height.y, 1e-4), kNever))));
     for (int n = 0; n < kMarchSteps && march_inside(path, walk); ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
-        vec4 texel = texel_at(plan, taken);
+        vec3 uv = texel_place(plan, taken);
+        vec4 texel = density_at(plan.kind, uv, taken.mip - march_base(plan.kind));
         float depth = scale * taken.depth * texel.a;
         float middle = entry + 0.5 * (taken.span.x + taken.span.y);
         if (handing_over) {
@@ -129,9 +150,13 @@ Left march(View view, Place place, MarchPath path, float entry, MarchPlan plan, 
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
         float weight = dot(lost, vec4(0.25));
         if (weight > 1e-4) {
-            float angle = path.bend.z * taken.rest.y;
-            vec3 axis = vec3(path.bend.x * sin(angle), cos(angle), path.bend.y * sin(angle));
-            GrassPoint point = GrassPoint(texel.rgb / max(texel.a, 1e-4) * tint, axis, taken.rest.y / frame.patch_grid.w, slope, medium.layers[taken.layer].x);
+            vec3 tangent = mean_tangent(path, plan, taken, uv);
+            float evenness = length(tangent);
+            vec3 albedo = texel.rgb / max(texel.a, 1e-4) * tint;
+            if (plan.kind == kMarchColumns) {
+                albedo *= mix(medium.level_tint[taken.layer], medium.steep_tint[taken.layer], steep).rgb;
+            }
+            GrassPoint point = GrassPoint(albedo, tangent / evenness, taken.rest.y / frame.patch_grid.w, slope, along_axis(evenness));
             seen.radiance += weight * shade_fibres(medium.look, medium.size.z, light, point, -view.way);
         }
         if (dot(seen.through, vec4(0.25)) > 0.5 && dot(seen.through - lost, vec4(0.25)) <= 0.5) {
@@ -185,7 +210,7 @@ Left see(View view, Place place, MarchPath path, float entry, inout Seen seen) {
 float next_entry(View view, float from, float last, float canopy) {
     const int kProbes = 20;
     float low = from, high = kNever;
-    float ratio = pow(max(last / max(from, 1.0), 1.0001), 1.0 / float(kProbes));
+    float ratio = pow(max(last / from, 1.0001), 1.0 / float(kProbes));
     for (int i = 1; i <= kProbes; ++i) {
         float t = from * pow(ratio, float(i));
         vec3 at = frame.eye.xyz + view.way * t;

@@ -70,13 +70,18 @@ struct FarRow {
 
 inline constexpr double kMaxShellShare = 8;
 
-/// What the far field's march reads (docs/far-field.md): averages of the blades' surface, which mips go on averaging. A texel of its images
-/// holds a density, the area of blades in it over the mean of its height (a), and their albedo times that (rgb).
+/// Images of the march: averages of the blades' surface, which mips go on averaging.
+struct MarchArrays {
+    TextureArray density; ///< a: area of blades in the texel over the mean of its height; rgb: their albedo times that
+    TextureArray fibres;  ///< mean tangent x, y, z as t * 0.5 + 0.5 (y: as it is); mean rank
+};
+
+/// What the far field's march reads (docs/far-field.md).
 struct FarMedium {
     shared::MarchMedium medium{};
-    TextureArray columns; ///< variants * kMarchLayers; u along x, v along z
+    MarchArrays columns; ///< variants * kMarchLayers; u along x, v along z
     /// Set k: variants * 2 axes * (kFinestSlabs >> k); u along the slab, v up from the ground to the canopy's top.
-    std::array<TextureArray, shared::kMarchSets> slabs;
+    std::array<MarchArrays, shared::kMarchSets> slabs;
     /// Factors on the optical depth: kMarchDensities x half mips x elevations x kinds, the last fastest.
     std::vector<float> correction;
 };

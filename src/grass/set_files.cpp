@@ -18,6 +18,9 @@ std::string layers_file(int level) {
 std::string slabs_file(int set) {
     return level_file("slabs", set);
 }
+std::string slab_fibres_file(int set) {
+    return level_file("slab_fibres", set);
+}
 std::string slices_file(int level) {
     return level_file("slices", level);
 }

@@ -21,10 +21,12 @@ inline constexpr const char* kVolumeFile = "volume.vdb";
 inline constexpr const char* kPreviewFile = "preview.png";
 
 inline constexpr const char* kColumnsFile = "columns.ktx2";
+inline constexpr const char* kColumnFibresFile = "column_fibres.ktx2";
 inline constexpr const char* kCorrectionFile = "correction.ktx2";
 
 /// slabs.ktx2, slabs_1.ktx2, slabs_2.ktx2
 [[nodiscard]] std::string slabs_file(int set);
+[[nodiscard]] std::string slab_fibres_file(int set);
 /// layers.ktx2, layers_1.ktx2, ...
 [[nodiscard]] std::string layers_file(int level);
 [[nodiscard]] std::string slices_file(int level);

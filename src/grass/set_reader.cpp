@@ -258,8 +258,9 @@ std::vector<float> read_numbers(const SetJson& set, const json& object, const ch
 }
 
 /// One of the march's arrays: its shape is the reader's to know.
-TextureArray read_march_array(const SetJson& set, const fs::path& directory, const std::string& name, glm::ivec3 shape) {
-    TextureArray array = read_array(set, directory, name, shape.z, TexelFormat::kRgba16f);
+TextureArray read_march_array(const SetJson& set, const fs::path& directory, const std::string& name, glm::ivec3 shape,
+                              TexelFormat format) {
+    TextureArray array = read_array(set, directory, name, shape.z, format);
     if (array.width != shape.x || array.height != shape.y)
         throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size", fmt::format("{} x {}", array.width, array.height),
                                 fmt::format("{} x {}", shape.x, shape.y));
@@ -270,30 +271,37 @@ void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
     const json& march = set.at(set.root(), "march");
     shared::MarchMedium& medium = out.march.medium;
     constexpr double kMostArea = 1e6; // m2 over a m2
-    int at = 0;
-    for (const json& edge : set.array(march, "edges", shared::kMarchLayers + 1, shared::kMarchLayers + 1)) {
-        const json wrapped = {{"edges", edge}};
-        const std::vector<float> v = read_numbers(set, wrapped, "edges", 4, kMostArea);
-        medium.edges[at] = {v[0], v[1], v[2], v[3]};
-        if (at > 0 && !(medium.edges[at].w > medium.edges[at - 1].w))
-            set.refuse("edges", fmt::format("height {} after {}", v[3], medium.edges[at - 1].w), "rising heights");
-        ++at;
+    const auto rows = [&](const char* key, std::size_t count, std::size_t numbers, double high) {
+        std::vector<std::vector<float>> out_rows;
+        for (const json& row : set.array(march, key, count, count))
+            out_rows.push_back(read_numbers(set, json{{key, row}}, key, numbers, high));
+        return out_rows;
+    };
+    const auto edges = rows("edges", shared::kMarchLayers + 1, 4, kMostArea);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        medium.edges[i] = {edges[i][0], edges[i][1], edges[i][2], edges[i][3]};
+        if (i > 0 && !(edges[i][3] > edges[i - 1][3]))
+            set.refuse("edges", fmt::format("height {} after {}", edges[i][3], edges[i - 1][3]), "rising heights");
     }
-    at = 0;
-    for (const json& layer : set.array(march, "layers", shared::kMarchLayers, shared::kMarchLayers)) {
-        const json wrapped = {{"layers", layer}};
-        const std::vector<float> v = read_numbers(set, wrapped, "layers", 2, 1.0001);
-        medium.layers[at++] = {v[0], v[1], 0, 0};
+    const auto layers = rows("layers", shared::kMarchLayers, 2, 1.0001);
+    const auto level = rows("level_tint", shared::kMarchLayers, 3, 10), steep = rows("steep_tint", shared::kMarchLayers, 3, 10);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        medium.layers[i] = {layers[i][0], layers[i][1], 0, 0};
+        medium.level_tint[i] = {level[i][0], level[i][1], level[i][2], 0};
+        medium.steep_tint[i] = {steep[i][0], steep[i][1], steep[i][2], 0};
     }
     const std::vector<float> look = read_numbers(set, march, "look", 4, 10000);
     medium.look = {look[0], look[1], look[2], look[3]};
     medium.size = {out.side_m, out.canopy_m, set.real(march, "translucency", 0, 1), static_cast<float>(out.variants)};
     constexpr int kTexels = shared::kMarchTexels, kRows = kMarchRows;
     const int columns = kTexels >> shared::kColumnBase;
-    out.march.columns = read_march_array(set, directory, kColumnsFile, {columns, columns, out.variants * shared::kMarchLayers});
+    const auto arrays = [&](const std::string& density, const std::string& fibres, glm::ivec3 shape) {
+        return MarchArrays{read_march_array(set, directory, density, shape, TexelFormat::kRgba16f),
+                           read_march_array(set, directory, fibres, shape, TexelFormat::kRgba8)};
+    };
+    out.march.columns = arrays(kColumnsFile, kColumnFibresFile, {columns, columns, out.variants * shared::kMarchLayers});
     for (int k = 0; k < shared::kMarchSets; ++k)
-        out.march.slabs[k] = read_march_array(set, directory, slabs_file(k),
-                                              {kTexels >> k, kRows, out.variants * 2 * (shared::kFinestSlabs >> k)});
+        out.march.slabs[k] = arrays(slabs_file(k), slab_fibres_file(k), {kTexels >> k, kRows, out.variants * 2 * (shared::kFinestSlabs >> k)});
     decode_correction(read_array(set, directory, kCorrectionFile, static_cast<int>(kMarchDensities.size()), TexelFormat::kRgba32f),
                       directory / kCorrectionFile, out.march);
 }

@@ -55,10 +55,8 @@ Renderer::Impl::Impl(World inputs)
     }
     make_object_meshes();
     // The GPU holds the images now; tens of megabytes are freed here.
-    world.grass.march.columns.mips = {};
-    for (grass::TextureArray& slabs : world.grass.march.slabs) {
-        slabs.mips = {};
-    }
+    world.grass.march.columns = {};
+    world.grass.march.slabs = {};
     for (grass::FarLevel& level : world.grass.levels) {
         level.layers.mips.clear();
         level.layers.mips.shrink_to_fit();

@@ -29,16 +29,18 @@ gl::Texture upload(const grass::TextureArray& array, std::uint32_t format, std::
 } // namespace
 
 MarchTextures::MarchTextures(const grass::FarMedium& march) {
-    if (march.columns.mips.empty()) {
+    if (march.columns.density.mips.empty()) {
         return;
     }
     medium_ = gl::Buffer(sizeof(shared::MarchMedium));
     medium_.upload(&march.medium, sizeof(march.medium));
-    columns_ = upload(march.columns, GL_RGBA16F, GL_HALF_FLOAT);
-    columns_.set_wrap(GL_REPEAT, GL_REPEAT);
-    for (std::size_t k = 0; k < slabs_.size(); ++k) {
-        slabs_[k] = upload(march.slabs[k], GL_RGBA16F, GL_HALF_FLOAT);
-        slabs_[k].set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
+    for (std::size_t kind = 0; kind < images_.size(); ++kind) {
+        const bool columns = kind == shared::kMarchColumns;
+        const grass::MarchArrays& arrays = columns ? march.columns : march.slabs[kind];
+        images_[kind] = {upload(arrays.density, GL_RGBA16F, GL_HALF_FLOAT), upload(arrays.fibres, GL_RGBA8, GL_UNSIGNED_BYTE)};
+        for (gl::Texture* texture : {&images_[kind].density, &images_[kind].fibres}) {
+            texture->set_wrap(GL_REPEAT, columns ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+        }
     }
     correction_ = gl::Texture(GL_RGBA32F, {shared::kMarchElevations, shared::kMarchMips, static_cast<int>(grass::kMarchDensities.size())});
     correction_.upload(0, GL_RGBA, GL_FLOAT, march.correction.data());
@@ -48,9 +50,9 @@ MarchTextures::MarchTextures(const grass::FarMedium& march) {
 
 void MarchTextures::bind() const {
     medium_.bind_uniform(BIND_MARCH);
-    columns_.bind(TEX_MARCH_COLUMNS);
-    for (std::size_t k = 0; k < slabs_.size(); ++k) {
-        slabs_[k].bind(TEX_MARCH_SLABS + static_cast<std::uint32_t>(k));
+    for (std::size_t kind = 0; kind < images_.size(); ++kind) {
+        images_[kind].density.bind(TEX_MARCH_DENSITY + static_cast<std::uint32_t>(kind));
+        images_[kind].fibres.bind(TEX_MARCH_FIBRES + static_cast<std::uint32_t>(kind));
     }
     correction_.bind(TEX_MARCH_CORRECTION);
 }

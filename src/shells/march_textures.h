@@ -15,12 +15,15 @@ public:
     /// A set without blades or volume (a scene on a mesh) has none. Throws Error(kOverLimit) when an array has more layers than the GPU takes.
     explicit MarchTextures(const grass::FarMedium& march);
     void bind() const;
-    [[nodiscard]] bool empty() const { return !columns_.id(); }
+    [[nodiscard]] bool empty() const { return !images_[0].density.id(); }
 
 private:
     gl::Buffer medium_;
-    gl::Texture columns_, correction_;
-    std::array<gl::Texture, shared::kMarchSets> slabs_;
+    struct Images {
+        gl::Texture density, fibres;
+    };
+    std::array<Images, shared::kMarchSets + 1> images_; ///< by kind of march
+    gl::Texture correction_;
 };
 
 } // namespace sward::shells

@@ -41,7 +41,8 @@ glm::dvec3 block_range(const Surface& surface, glm::dvec2 corner, double side) {
 } // namespace
 
 std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& surface, const Frustum& frustum,
-                                         glm::dvec3 anchor, glm::vec3 eye) {
+                                         glm::dvec3 anchor, glm::vec4 eye_canopy_m) {
+    const glm::vec3 eye(eye_canopy_m);
     std::vector<VisibleBlock> blocks;
     for (int level = 0; level < clipmap.levels(); ++level) {
         const double cell = Clipmap::spacing(level);
@@ -56,7 +57,7 @@ std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& 
             const glm::vec2 place(corner - glm::dvec2(anchor.x, anchor.z));
             const auto seen = [&](glm::dvec3 bounds) {
                 return frustum.may_see({place.x, bounds.x - anchor.y, place.y},
-                                       {place.x + side, bounds.y - anchor.y, place.y + side});
+                                       {place.x + side, bounds.y - anchor.y + static_cast<double>(eye_canopy_m.w), place.y + side});
             };
             glm::dvec3 range(surface.range(), 1);
             if (!seen(range)) {

@@ -23,9 +23,9 @@ struct VisibleBlock {
 };
 
 /// Blocks of every level that may be seen, without the holes that finer levels fill, sorted by distance.
-/// `anchor`: world metres (x, height, z); `eye`: anchor-relative.
+/// `anchor`: world metres (x, height, z); `eye`: anchor-relative; `canopy_m`: of what stands on the ground.
 [[nodiscard]] std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& surface, const Frustum& frustum,
-                                                       glm::dvec3 anchor, glm::vec3 eye);
+                                                       glm::dvec3 anchor, glm::vec4 eye_canopy_m);
 
 /// Index buffer of a block's 8 x 8 cells as triangles: terrain and shells draw the same mesh.
 class BlockMesh {
