@@ -180,7 +180,7 @@ ViewSums cast_view(const Canopy& canopy, const std::vector<Caster>& casters, con
         ++sums.shaded;
         const shared::GrassAppearance& look = canopy.looks[hit->species];
         shared::GrassPoint point{hit->albedo, seen_from(hit->tangent, -ray.direction, mirrored),
-                                 static_cast<float>(hit->height), 1, 1};
+                                 static_cast<float>(hit->height), 1};
         sums.sky += shared::shade_grass(look, sky, point, to_eye);
         for (std::size_t s = 0; s < lights.size(); ++s) {
             point.slope = lights[s].to_sun.y;

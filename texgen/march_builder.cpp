@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include "shared/blade.h"
+#include "shared/march.h"
 #include "shared/shading.h"
 #include "texgen/canopy.h"
 
@@ -112,7 +113,7 @@ grass::TextureArray packed_fibres(const MarchImages& images) {
 
 /// Area as it counts where rays go mostly along these shares of the axes.
 double area_seen(const glm::dvec3& area, const glm::dvec3& way) { return glm::length(area * way); }
-const glm::dvec3 kColumnWay(0.45, 0.77, 0.45), kLevelWay(0.7, 0.05, 0.7), kSteepWay(0, 1, 0);
+const glm::dvec3 kColumnWay(0.5, 0.6, 0.5), kLevelWay(0.7, 0.05, 0.7), kSteepWay(0, 1, 0);
 const glm::dvec3 kSlabWays[2] = {{0.87, 0.45, 0.2}, {0.2, 0.45, 0.87}};
 
 void add_piece(MarchImages& images, std::size_t texel, const SurfacePiece& piece, double area) {
@@ -156,7 +157,7 @@ void MarchBuilder::add(int variant, const SurfacePiece& piece) {
     const auto above = std::upper_bound(edges_.begin() + 1, edges_.end() - 1, y);
     const auto layer = static_cast<int>(above - edges_.begin()) - 1;
     areas_[layer] += piece.area;
-    moments_[layer] += area * glm::dvec3(1, piece.tangent.y, piece.along);
+    moments_[layer] += glm::length(piece.area) * glm::dvec3(1, piece.tangent.y, piece.along);
     const glm::dvec4 albedo(glm::dvec3(piece.albedo), 1);
     tints_[layer].columns += area * albedo;
     tints_[layer].level += area_seen(piece.area, kLevelWay) * albedo;
@@ -215,6 +216,7 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
     data.medium.look = glm::vec4(look / std::max(whole, 1e-12));
     data.medium.size = {static_cast<float>(side_), static_cast<float>(canopy_), static_cast<float>(translucency / std::max(whole, 1e-12)),
                         static_cast<float>(variants_)};
+    shared::fill_views(data.medium);
     return data;
 }
 

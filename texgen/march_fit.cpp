@@ -102,7 +102,7 @@ private:
         shared::MarchPlan plan = shared::march_look(medium, path, {static_cast<float>(footprint_) / kFar, kFar, static_cast<float>(case_.density)});
         plan.footprint = static_cast<float>(footprint_);
         plan.kind = case_.kind;
-        plan.axis = shared::march_shares(medium, plan).y > 0.5f ? 0 : 1;
+        plan.axis = std::abs(plan.level.x) > std::abs(plan.level.y) ? 0 : 1;
         shared::march_settle(medium, plan);
         const float variant = std::floor(static_cast<float>(random(4)) * medium.size.w);
         return walk(path, plan, factor, variant);
@@ -112,7 +112,7 @@ private:
         const shared::MarchMedium& medium = data_.medium;
         const Reader reader(plan.kind == kMarchColumns ? data_.columns : data_.slabs[plan.kind], plan.kind == kMarchColumns);
         const float scale = factor * plan.density;
-        shared::MarchWalk at = shared::march_begin(medium, path);
+        shared::MarchWalk at = shared::march_begin(path);
         double through = 1, light = 0;
         for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, at); ++n) {
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});

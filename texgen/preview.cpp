@@ -48,7 +48,7 @@ public:
         const shared::GrassAppearance& look = looks_[std::min(at.species, looks_.size() - 1)];
         const shared::vec3 albedo = shared::blade_albedo(look, shared::vec2(at.rank, at.seed), static_cast<float>(at.along), 1);
         const auto top = static_cast<float>(std::clamp(height, 0.0, 1.0));
-        return shared::shade_grass(look, light_, {albedo, shared::vec3(tangent), top, light_.to_sun.y, 1}, {0, 1, 0});
+        return shared::shade_grass(look, light_, {albedo, shared::vec3(tangent), top, light_.to_sun.y}, {0, 1, 0});
     }
     static dvec3 ground() { return kSoil * 0.5; }
     [[nodiscard]] std::span<const shared::GrassAppearance> looks() const { return looks_; }

@@ -28,7 +28,7 @@ void write_grass(GrassSample s) {
     float distance_m = length(from_eye);
     vec3 to_eye = -from_eye / distance_m;
     vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
-    GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope, 1.0);
+    GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
     Light light = light_in_sway(frame.light, sway);
 #ifdef SURFACE
     light = light_under(light, open_sky);

@@ -84,12 +84,12 @@
 #define TEX_WIND_AMBIENT 11    // RGBA32F buffer: cells of the ambient tile, previous and latest state
 #define TEX_WIND_LOCAL 12      // RGBA32F buffer: cells of the local window likewise
 #define TEX_DEPTH_PYRAMID 13   // R32F: farthest depth of the opaque scene, a level a mip
-#define TEX_MARCH_DENSITY 16   // RGBA16F arrays, 16 to 19, by kind of march: albedo times density, density
-#define TEX_MARCH_FIBRES 20    // RGBA8 arrays, 20 to 23, likewise: mean tangent and rank
-#define TEX_MARCH_CORRECTION 24 // RGBA32F array: factors on the optical depth by elevation, half mip; density; a channel a kind
-#define TEX_CANOPY_DEPTH 25    // depth of the canopy's upper surface
-#define TEX_CANOPY_GROUND 26   // RGBA16F: slope of the ground under it, density, tint
-#define TEX_CANOPY_AIR 27      // RGBA16F: wind, canopy_sway
+#define TEX_MARCH_DENSITY 16   // RGBA16F array of one kind of march: albedo times density, density
+#define TEX_MARCH_FIBRES 17    // RGBA8 array, likewise: mean tangent and rank
+#define TEX_MARCH_CORRECTION 18 // RGBA32F array: factors on the optical depth by elevation, half mip; density; a channel a kind
+#define TEX_CANOPY_DEPTH 19    // depth of the canopy's upper surface
+#define TEX_CANOPY_GROUND 20   // RGBA16F: slope of the ground under it, density, tint
+#define TEX_CANOPY_AIR 21      // RGBA16F: wind, canopy_sway
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list

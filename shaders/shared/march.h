@@ -37,29 +37,41 @@ SHARED_FN float march_height(MarchPath path, float s) {
     return path.height.x + s * (path.height.y + s * path.height.z);
 }
 
+// Sine and cosine of B3's angle, which ends at 90 degrees; within 0.001 there. A march takes dozens of them.
+SHARED_FN vec2 march_turn(float angle) {
+    float x = angle * angle;
+    return vec2(angle * (1.0f - x * (1.0f / 6.0f - x * (1.0f / 120.0f - x / 5040.0f))), 1.0f - x * (0.5f - x * (1.0f / 24.0f - x / 720.0f)));
+}
+
 // B3: height over the ground of what stands at height y at rest, and back.
 SHARED_FN float march_bent_height(MarchPath path, float y) {
-    float k = path.bend.z;
-    return k * y > 1e-3f ? sin(k * y) / k : y;
+    float x = path.bend.z * y;
+    x = x * x;
+    return y * (1.0f - x * (1.0f / 6.0f - x * (1.0f / 120.0f - x / 5040.0f)));
 }
 SHARED_FN float march_rest_height(MarchPath path, float y) {
     float k = path.bend.z;
-    return k * y > 1e-3f ? asin(min(k * y, 0.9999f)) / k : y;
+    float x = k * y;
+    float rest = y * (1.0f + x * x * (1.0f / 6.0f + 0.075f * x * x));
+    for (int i = 0; i < 2; ++i) { // Newton
+        rest += (y - march_bent_height(path, rest)) / max(march_turn(k * rest).y, 0.1f);
+    }
+    return rest;
 }
 
 // Where the point at s stands at rest: x, height over the ground, z.
 SHARED_FN vec3 march_rest(MarchPath path, float s) {
     float y = march_rest_height(path, clamp(march_height(path, s), 0.0f, path.bend.w));
-    float k = path.bend.z;
-    float aside = k * y > 1e-3f ? (1.0f - cos(k * y)) / k : 0.0f;
+    float x = path.bend.z * y;
+    float aside = y * x * (0.5f - x * x * (1.0f / 24.0f - x * x / 720.0f)); // (1 - cos k y) / k
     return vec3(path.from.x + path.way.x * s - path.bend.x * aside, y, path.from.z + path.way.z * s - path.bend.y * aside);
 }
 
 // Motion among the resting blades for a metre of the ray, where its height at rest is y.
 SHARED_FN vec3 march_velocity(MarchPath path, float y, float s) {
-    float angle = path.bend.z * y;
-    float upright = max(cos(angle), 0.05f);
-    float aside = sin(angle) / upright * (path.height.y + 2.0f * path.height.z * s);
+    vec2 turn = march_turn(path.bend.z * y);
+    float upright = max(turn.y, 0.05f);
+    float aside = turn.x / upright * (path.height.y + 2.0f * path.height.z * s);
     return vec3(path.way.x - path.bend.x * aside, path.way.y / upright, path.way.z - path.bend.y * aside);
 }
 
@@ -83,16 +95,20 @@ struct MarchWalk {
     int rising;  // 1 once the ray gains height over the ground
 };
 
-SHARED_FN MarchWalk march_begin(MARCH_MEDIUM MarchPath path) {
+SHARED_FN MarchWalk march_begin(MarchPath path) {
     MarchWalk walk;
     walk.s = 0.0f;
     walk.rising = path.height.y > 0.0f ? 1 : 0;
     walk.layer = kMarchLayers - 1;
+    return walk;
+}
+
+// The same where the path begins below the canopy's top.
+SHARED_FN MarchWalk march_begin_inside(MARCH_MEDIUM MarchPath path) {
+    MarchWalk walk = march_begin(path);
     float y = march_rest_height(path, min(path.height.x, path.bend.w));
     for (int i = kMarchLayers - 1; i > 0; --i) {
-        if (y < medium.edges[i].w) {
-            walk.layer = i - 1;
-        }
+        walk.layer = y < medium.edges[i].w ? i - 1 : walk.layer;
     }
     return walk;
 }
@@ -177,34 +193,30 @@ SHARED_FN float march_mip(float width, float side) {
     return log(max(width * float(kMarchTexels) / side, 1e-6f)) * 1.442695f;
 }
 
-// s where 5, 50 and 75 percent of what the ray sees lie before it.
-SHARED_FN vec3 march_quantiles(MARCH_MEDIUM MarchPath path, float density, SHARED_OUT(float) seen) {
-    MarchWalk walk = march_begin(MARCH_WITH path);
-    vec3 low = vec3(medium.edges[0]);
-    float whole = density * length(low * march_velocity(path, 0.5f * medium.size.y, 0.0f)) / max(-path.height.y, 0.02f);
-    seen = 1.0f - exp(-clamp(whole, 1e-4f, 20.0f));
-    vec3 at;
-    march_advance(MARCH_WITH path, walk, vec3(1e9f, -log(1.0f - 0.05f * seen), density));
-    at.x = walk.s;
-    march_advance(MARCH_WITH path, walk, vec3(1e9f, log((1.0f - 0.05f * seen) / (1.0f - 0.5f * seen)), density));
-    at.y = walk.s;
-    march_advance(MARCH_WITH path, walk, vec3(1e9f, log((1.0f - 0.5f * seen) / (1.0f - 0.75f * seen)), density));
-    at.z = walk.s;
-    return at;
+// s at which a path has come down to a height at rest, or as far down as it comes.
+SHARED_FN float march_reach(MarchPath path, float y) {
+    float drop = max(path.height.x - march_bent_height(path, y), 0.0f);
+    float a = min(path.height.y, -0.01f);
+    float square = max(a * a - 4.0f * path.height.z * drop, 0.0f);
+    return min(2.0f * drop / (-a + sqrt(square)), path.height.w);
 }
 
 // What a pixel sees of the canopy. `pixel`: width of a pixel at distance 1; `before`: distance from the eye to where the path begins.
 SHARED_FN MarchPlan march_look(MARCH_MEDIUM MarchPath path, vec3 pixel_before_density) {
     MarchPlan plan;
     plan.density = max(pixel_before_density.z, 1e-3f);
-    vec3 at = march_quantiles(MARCH_WITH path, plan.density, plan.seen);
-    vec3 velocity = march_velocity(path, 0.6f * medium.size.y, at.y);
+    vec3 velocity = march_velocity(path, 0.6f * medium.size.y, 0.0f);
     plan.level = vec2(velocity.x, velocity.z);
     plan.elevation = atan(abs(velocity.y) / max(length(plan.level), 1e-4f)) * (180.0f / kPi);
-    plan.footprint = max((pixel_before_density.y + at.y) * pixel_before_density.x, 1e-5f);
+    float at = plan.elevation / 5.0f;
+    int row = clamp(int(at), 0, kMarchElevations - 2);
+    vec4 view = mix(medium.views[row], medium.views[row + 1], at - float(row));
+    plan.seen = 1.0f - exp(-clamp(plan.density * view.w / max(-path.height.y, 0.02f), 1e-4f, 20.0f));
+    float half_way = march_reach(path, view.y);
+    plan.footprint = max((pixel_before_density.y + half_way) * pixel_before_density.x, 1e-5f);
     plan.tap = plan.footprint / max(abs(velocity.y), 0.02f);
     plan.stretch = plan.tap * length(plan.level);
-    plan.run = at.z - at.x;
+    plan.run = march_reach(path, view.z) - march_reach(path, view.x);
     plan.kind = kMarchColumns;
     plan.axis = 0;
     plan.steps = 0;
@@ -213,23 +225,47 @@ SHARED_FN MarchPlan march_look(MARCH_MEDIUM MarchPath path, vec3 pixel_before_de
     return plan;
 }
 
-// Share of the columns in what a pixel shows, and of the slabs across x in that of the slabs. Where two kinds meet both are marched and
-// mixed: they look alike in the mean, but are not the same blades.
-SHARED_FN vec2 march_shares(MARCH_MEDIUM MarchPlan plan) {
-    float columns = max(smoothstep(kSteepFrom, kSteepTo, plan.elevation),
-                        smoothstep(kColumnFrom, kColumnTo, plan.footprint / medium.size.x));
-    float level = max(length(plan.level), 1e-4f);
-    return vec2(columns, clamp(0.5f + (abs(plan.level.x) - abs(plan.level.y)) / level / 0.15f, 0.0f, 1.0f));
+#ifdef __cplusplus
+// Fills MarchMedium::views from its edges.
+inline void fill_views(MarchMedium& medium) {
+    for (int i = 0; i < kMarchElevations; ++i) {
+        float elevation = max(5.0f * float(i), 1.0f) * (kPi / 180.0f);
+        MarchPath path;
+        path.way = vec3(cos(elevation) * 0.70710678f, -sin(elevation), cos(elevation) * 0.70710678f);
+        path.from = vec3(0.0f, medium.size.y, 0.0f);
+        path.height = vec4(medium.size.y, path.way.y, 0.0f, -medium.size.y / path.way.y);
+        path.bend = vec4(1.0f, 0.0f, 0.0f, medium.size.y);
+        MarchWalk whole = march_begin(path);
+        float depth = march_advance(medium, path, whole, vec3(1e9f, 1e9f, 1.0f));
+        float seen = 1.0f - exp(-min(depth, 20.0f));
+        vec4 view(0.0f, 0.0f, 0.0f, depth * sin(elevation));
+        for (int part = 0; part < 3; ++part) {
+            const float shares[3] = {0.05f, 0.5f, 0.75f};
+            MarchWalk walk = march_begin(path);
+            march_advance(medium, path, walk, vec3(1e9f, -log(1.0f - shares[part] * seen), 1.0f));
+            view[part] = max(march_height(path, walk.s), 0.0f);
+        }
+        medium.views[i] = view;
+    }
 }
+#endif
 
-// Set of slabs: as thick as the pixel allows, and never so thick that few cross the ray. `dither` in (0, 1) decides between two.
-SHARED_FN int march_slab_set(MARCH_MEDIUM MarchPlan plan, float dither) {
+// Which kind a pixel is marched by: columns where they do as well, else slabs across the axis that the ray runs along most, as thick as the
+// pixel allows and never so thick that few cross the ray. Where two are as good, `dither` in (0, 1) decides.
+SHARED_FN void march_choose(MARCH_MEDIUM SHARED_INOUT(MarchPlan) plan, float dither) {
+    float level = max(length(plan.level), 1e-4f);
+    plan.axis = (abs(plan.level.x) - abs(plan.level.y)) / level > 0.04f * (0.5f - dither) ? 0 : 1;
+    float columns = max(smoothstep(kSteepFrom, kSteepTo, plan.elevation), smoothstep(kColumnFrom, kColumnTo, plan.footprint / medium.size.x));
+    if (columns > dither) {
+        plan.kind = kMarchColumns;
+        return;
+    }
     float angle = plan.elevation * (kPi / 180.0f);
     float steepness = max(sin(angle) / max(cos(angle), 1e-3f), 1e-3f);
     float gap = min(4.5f * plan.footprint, 0.25f * medium.size.y / steepness);
     float set = clamp(march_mip(gap, medium.size.x) - 4.0f, 0.0f, 2.0f); // 2^4 texels: a slab of the finest set
     float whole = min(floor(set), 1.0f);
-    return int(whole) + (smoothstep(0.44f, 0.56f, set - whole) > dither ? 1 : 0);
+    plan.kind = int(whole) + (smoothstep(0.44f, 0.56f, set - whole) > dither ? 1 : 0);
 }
 
 // Mips, steps and place in the correction table of a plan whose kind is chosen.
@@ -265,14 +301,11 @@ SHARED_FN MarchStep march_column(MARCH_MEDIUM MarchPath path, MarchPlan plan, SH
     float most = number_scale.x + 1.5f > n ? 1e9f : log(before / after);
     MarchStep taken;
     float from = walk.s;
-    taken.layer = clamp(walk.layer, 0, kMarchLayers - 1);
-    MarchWalk half_way = walk;
-    march_advance(MARCH_WITH path, half_way, vec3(1e9f, min(0.5f * most, 1.0f), number_scale.y));
-    taken.layer = clamp(half_way.layer, 0, kMarchLayers - 1);
+    int first = clamp(walk.layer, 0, kMarchLayers - 1);
     taken.depth = march_advance(MARCH_WITH path, walk, vec3(1e9f, most, number_scale.y)) / max(number_scale.y, 1e-6f);
     taken.span = vec2(from, walk.s);
-    float middle = min(half_way.s, walk.s);
-    taken.rest = march_rest(path, middle);
+    taken.layer = (first + clamp(walk.layer, 0, kMarchLayers - 1) + 1) / 2;
+    taken.rest = march_rest(path, 0.5f * (from + walk.s));
     // Steps are the taps of a footprint that is stretched along the ray, too: each a golden ratio further.
     float tap = (fract(number_scale.x * 0.61803399f) - 0.5f) * plan.tap;
     taken.rest.x += path.way.x * tap;

@@ -24,12 +24,20 @@ struct MarchMedium {
     // Layer i: albedo as rays along the ground and rays from above see it, over the mean that the columns hold.
     vec4 level_tint[kMarchLayers];
     vec4 steep_tint[kMarchLayers];
+    // By elevation of a ray on level ground in a calm, 0, 5 .. 90 degrees: heights (m) above which 5, 50 and 75 percent of what it sees lie;
+    // its whole mean optical depth, times the sine of the elevation.
+    vec4 views[kMarchElevations];
     vec4 look; // kd, pd, ks, ps of G4: means of the species by what is seen of them
     vec4 size; // side of the patch (m); canopy (m); translucency, likewise; variants
 };
 #ifdef __cplusplus
-static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + 2));
+static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + kMarchElevations + 2));
 #endif
+
+// Depth that stands for a kind (a crest's: that of rays which may leave the canopy again): each is a pass over the pixels that have it.
+SHARED_FN float kind_depth(int kind, bool crest) {
+    return 0.0625f * float(kind + 1 + (crest ? 4 : 0));
+}
 
 SHARED_END
 #endif

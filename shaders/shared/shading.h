@@ -126,41 +126,78 @@ SHARED_FN Light light_under(Light light, float open_sky) {
     return here;
 }
 
-// A point of a blade, to be shaded, or of many blades that stand for one.
+// A point of a blade, to be shaded.
 struct GrassPoint {
     vec3 albedo;
-    vec3 tangent; // unit; of many their axis
+    vec3 tangent; // unit
     float height; // of the point at rest, 0 ground .. 1 top of the canopy
     float slope;  // cosine between the ground's normal and the sun
-    float along;  // mean square of the tangents' part along the axis: 1 for one blade, 1/3 every way alike
 };
 
-// GrassPoint::along of blades whose mean tangent is so long: 1 for one blade; within 0.05 for blades spread about their axis.
+// Points of many blades, or of one: sums over them of what shading is linear in.
+struct GrassSums {
+    vec3 sunlit;   // albedo times the share of sunlight that reaches it (canopy_sun)
+    vec3 skylit;   // albedo times that of skylight
+    float sun;     // that share of sunlight
+    vec3 tangent;  // unit; of many their axis
+    float along;   // mean square of the tangents' part along the axis: 1 for one blade, 1/3 every way alike
+};
+
+// GrassSums::along of blades whose mean tangent is so long: 1 for one blade; within 0.05 for blades spread about their axis.
 SHARED_FN float along_axis(float mean_length) {
     return clamp(1.0f - (4.0f / 3.0f) * (1.0f - mean_length), 1.0f / 3.0f, 1.0f);
 }
 
-// Radiance toward the eye (unit direction to_eye) of grass. `gloss`: kd, pd, ks, ps of G4. Of many blades the means: of the square of a
-// cosine, and of the highlight as that of a cosine spread by its variance.
-SHARED_FN vec3 shade_fibres(vec4 gloss, float translucency, Light light, GrassPoint point, vec3 to_eye) {
+// Mean square of the tangents' part along `way`, as an eye sees the blades: those that lie along the view show the least. From the second
+// moments alone; the fourth as a Gaussian's, scaled to be right where all blades are alike and where they point every way.
+SHARED_FN float seen_square(GrassSums sums, vec3 way, vec3 to_eye) {
+    float across = 0.5f * (1.0f - sums.along);
+    float more = sums.along - across;
+    float l = dot(sums.tangent, way);
+    float v = dot(sums.tangent, to_eye);
+    float ll = across + more * l * l;
+    float vv = across + more * v * v;
+    float lv = across * dot(way, to_eye) + more * l * v;
+    float closure = 1.0f / (1.0f + 2.0f * (sums.along * sums.along + 2.0f * across * across));
+    float fourth = closure * (ll * vv + 2.0f * lv * lv);
+    // A blade's width shows as the sine of its angle to the view, about 1 - v^2 / 2.
+    return clamp((ll - 0.5f * fourth) / (1.0f - 0.5f * vv), 0.0f, 1.0f);
+}
+
+// Radiance toward the eye (unit direction to_eye) of grass: the one shading function. `gloss`: kd, pd, ks, ps of G4. Of many blades the
+// mean of the square of a cosine, and of the highlight as that of a cosine spread by its variance.
+SHARED_FN vec3 shade_sums(vec4 gloss, float translucency, Light light, GrassSums sums, vec3 to_eye) {
     vec3 sun_way = vec3(light.to_sun);
-    float tl = dot(point.tangent, sun_way);
-    float th = dot(point.tangent, normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f))); // never of length 0
-    float across = 0.5f * (1.0f - point.along);
-    float square = point.along * tl * tl + across * (1.0f - tl * tl);
-    float diffuse = gloss.x * pow(max(1.0f - square, 0.0f), 0.5f * gloss.y);
-    float wide = 1.0f + gloss.w * across * (1.0f - th * th);
-    float specular = gloss.z * pow(max(1.0f - point.along * th * th / wide, 0.0f), 0.5f * gloss.w) / sqrt(wide);
+    vec3 half_way = normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f)); // never of length 0
+    float tl = dot(sums.tangent, sun_way);
+    float th = dot(sums.tangent, half_way);
+    float sunward = tl * tl;
+    float mirrored = th * th;
+    float wide = 1.0f;
+    if (sums.along < 1.0f) {
+        sunward = seen_square(sums, sun_way, to_eye);
+        float spread = 0.5f * (1.0f - sums.along) * (1.0f - th * th);
+        float share = seen_square(sums, half_way, to_eye) / max(sums.along * th * th + spread, 1e-4f);
+        wide = 1.0f + gloss.w * spread * share;
+        mirrored = sums.along * th * th * share / wide;
+    }
+    float diffuse = gloss.x * pow(max(1.0f - sunward, 0.0f), 0.5f * gloss.y);
+    float specular = gloss.z * pow(max(1.0f - mirrored, 0.0f), 0.5f * gloss.w) / sqrt(wide);
     // Against the light a blade glows: transmitted sunlight is yellower than reflected.
     float against = 0.5f - 0.5f * dot(to_eye, sun_way);
-    vec3 glow = point.albedo * vec3(1.25f, 1.15f, 0.5f) * (translucency * against * against * against);
-    vec3 sky = even_sky(light) * canopy_sky(light, point.height);
-    vec3 sun = vec3(light.sun) * canopy_sun(light, point.height, point.slope);
-    return sun * ((point.albedo + glow) * diffuse + vec3(specular, specular, specular)) + sky * point.albedo;
+    vec3 glow = vec3(1.25f, 1.15f, 0.5f) * (translucency * against * against * against);
+    vec3 highlight = vec3(specular, specular, specular) * sums.sun;
+    return vec3(light.sun) * (sums.sunlit * (1.0f + glow) * diffuse + highlight) + even_sky(light) * sums.skylit;
 }
 
 SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
-    return shade_fibres(look.light, look.dry.w, light, point, to_eye);
+    GrassSums sums;
+    sums.sun = canopy_sun(light, point.height, point.slope);
+    sums.sunlit = point.albedo * sums.sun;
+    sums.skylit = point.albedo * canopy_sky(light, point.height);
+    sums.tangent = point.tangent;
+    sums.along = 1.0f;
+    return shade_sums(look.light, look.dry.w, light, sums, to_eye);
 }
 
 // Radiance of bare ground under `density` of canopy (0 open).

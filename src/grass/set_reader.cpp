@@ -14,6 +14,7 @@
 #include "grass/far_medium.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
+#include "shared/march.h"
 
 namespace sward::grass {
 namespace {
@@ -293,6 +294,7 @@ void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
     const std::vector<float> look = read_numbers(set, march, "look", 4, 10000);
     medium.look = {look[0], look[1], look[2], look[3]};
     medium.size = {out.side_m, out.canopy_m, set.real(march, "translucency", 0, 1), static_cast<float>(out.variants)};
+    shared::fill_views(medium);
     constexpr int kTexels = shared::kMarchTexels, kRows = kMarchRows;
     const int columns = kTexels >> shared::kColumnBase;
     const auto arrays = [&](const std::string& density, const std::string& fibres, glm::ivec3 shape) {

@@ -154,11 +154,13 @@ void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, c
         canopy.require(settings.width, settings.height);
         march.draw_canopy(canopy, static_cast<int>(field.blocks.size()), block_mesh);
     }
+    const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
+    const shells::MarchPass::Inputs inputs{march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z))};
     const gl::PassScope pass(timers, "far field");
     targets.bind_resolved();
+    march.choose(inputs);
     targets.bind_scene_textures();
-    const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
-    march.execute({march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z))});
+    march.execute(inputs);
 }
 
 void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
@@ -186,12 +188,13 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
         const gl::PassScope pass(timers, "sky");
         draw.screen.sky();
     }
+    {
+        const gl::PassScope pass(timers, "resolve");
+        draw.screen.resolve(targets, 1.0f / static_cast<float>(pictures), picture == 0);
+    }
     if (marches(settings) && !mesh_ground && !march_textures.empty()) {
         draw_far(settings, shot, field);
-        return;
     }
-    const gl::PassScope pass(timers, "resolve");
-    draw.screen.resolve(targets, 1.0f / static_cast<float>(pictures), picture == 0);
 }
 
 void Renderer::Impl::draw_frame(const View& view, const FrameSettings& settings) {

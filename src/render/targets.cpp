@@ -40,6 +40,7 @@ void Targets::require(int width, int height, int samples, bool aov) {
     color_ = gl::Texture(GL_RGBA32F, plain);
     data_ = gl::Texture(GL_RGBA32F, plain);
     picture_ = gl::Texture(GL_RGBA8, plain);
+    kinds_ = gl::Texture(GL_DEPTH_COMPONENT32F, plain);
     if (aov) {
         scene_data_ = gl::Texture(GL_RGBA16F, multisampled);
         scene_tangent_ = gl::Texture(GL_RGBA16F, multisampled);
@@ -47,10 +48,10 @@ void Targets::require(int width, int height, int samples, bool aov) {
         tangent_ = gl::Texture(GL_RGBA16F, plain);
         normal_ = gl::Texture(GL_RGBA16F, plain);
         scene_ = gl::Framebuffer({&scene_color_, &scene_data_, &scene_tangent_, &scene_normal_}, &scene_depth_);
-        resolved_ = gl::Framebuffer({&color_, &data_, &tangent_, &normal_}, nullptr);
+        resolved_ = gl::Framebuffer({&color_, &data_, &tangent_, &normal_}, &kinds_);
     } else {
         scene_ = gl::Framebuffer({&scene_color_}, &scene_depth_);
-        resolved_ = gl::Framebuffer({&color_, &data_}, nullptr);
+        resolved_ = gl::Framebuffer({&color_, &data_}, &kinds_);
     }
     display_ = gl::Framebuffer({&picture_}, nullptr);
     width_ = width;

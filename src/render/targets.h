@@ -39,6 +39,7 @@ private:
     bool aov_ = false;
     gl::Texture scene_color_, scene_depth_, scene_data_, scene_tangent_, scene_normal_;
     gl::Texture color_, data_, tangent_, normal_, picture_;
+    gl::Texture kinds_; ///< depth of the resolved targets: the far field's choice of kinds
     gl::Framebuffer scene_, resolved_, display_;
 };
 

@@ -24,9 +24,23 @@ void CanopyTargets::bind_textures() const {
     air_.bind(TEX_CANOPY_AIR);
 }
 
+namespace {
+
+std::vector<std::string> variant(bool aov, std::vector<std::string> defines) {
+    if (aov) {
+        defines.emplace_back("AOV");
+    }
+    return defines;
+}
+
+} // namespace
+
 MarchPass::MarchPass(bool aov)
-    : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}),
-      march_("far field", {"render/screen.vert", "shells/march.frag"}, aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {
+    : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}), choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}),
+      columns_("columns", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS"})),
+      slabs_("slabs", {"shells/march.vert", "shells/march.frag"}, variant(aov, {})),
+      crest_columns_("columns at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS", "CREST"})),
+      crest_slabs_("slabs at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"CREST"})) {
     glCreateVertexArrays(1, &vertex_array_);
 }
 
@@ -36,26 +50,56 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     targets.bind_for_drawing();
     constexpr float kFar[4] = {0, 0, 0, 0};
     glClearBufferfv(GL_DEPTH, 0, kFar);
+    glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     canopy_.use();
     mesh.draw(blocks);
     glDisable(GL_CULL_FACE);
 }
 
-void MarchPass::execute(const Inputs& inputs) {
-    inputs.textures.bind();
-    inputs.canopy.bind_textures();
-    glDisable(GL_DEPTH_TEST);
-    march_.use();
-    march_.set("samples", inputs.samples);
-    march_.set("eye_height", inputs.eye_height_m);
+void MarchPass::triangle(const gl::Program& program, const Inputs& inputs, float plane) const {
+    program.use();
+    program.set("eye_height", inputs.eye_height_m);
+    program.set("plane", plane);
     glBindVertexArray(vertex_array_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
+void MarchPass::choose(const Inputs& inputs) {
+    inputs.textures.bind();
+    inputs.canopy.bind_textures();
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
+    triangle(choose_, inputs, 0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_GREATER);
+}
+
+void MarchPass::execute(const Inputs& inputs) {
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_EQUAL);
+    glDepthMask(GL_FALSE);
+    for (int kind = 0; kind <= shared::kMarchColumns; ++kind) {
+        inputs.textures.bind_kind(kind);
+        for (const bool crest : {false, true}) {
+            const bool columns = kind == shared::kMarchColumns;
+            const gl::Program& program = crest ? (columns ? crest_columns_ : crest_slabs_) : columns ? columns_ : slabs_;
+            program.use();
+            program.set("samples", inputs.samples);
+            program.set("kind", kind);
+            triangle(program, inputs, shared::kind_depth(kind, crest));
+        }
+    }
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_GREATER);
+    glDisable(GL_DEPTH_TEST);
+}
+
 void MarchPass::reload() {
-    canopy_.reload();
-    march_.reload();
+    for (gl::Program* program : {&canopy_, &choose_, &columns_, &slabs_, &crest_columns_, &crest_slabs_}) {
+        program->reload();
+    }
 }
 
 } // namespace sward::shells

@@ -21,7 +21,8 @@ private:
     gl::Framebuffer surface_;
 };
 
-/// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md).
+/// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md). First each pixel's kind of march is chosen, as a
+/// depth; then each kind is drawn over its own pixels.
 class MarchPass {
 public:
     explicit MarchPass(bool aov);
@@ -35,15 +36,20 @@ public:
     struct Inputs {
         const MarchTextures& textures;
         const CanopyTargets& canopy;
-        int samples = 1;      ///< a pixel of the scene has
+        int samples = 1;        ///< a pixel of the scene has
         float eye_height_m = 0; ///< over the ground
     };
-    /// Resolves the scene, seen through the far field. Before: frame constants, clipmap, the scene's textures and the resolved targets are bound.
+    /// Chooses the kinds, into the depth of the framebuffer that is bound. Before: frame constants and clipmap are bound.
+    void choose(const Inputs& inputs);
+    /// Resolves the scene, seen through the far field, where there is any. Before: choose(), and the scene's textures and the resolved targets are bound.
     void execute(const Inputs& inputs);
     void reload();
 
 private:
-    gl::Program canopy_, march_;
+    void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
+    gl::Program canopy_, choose_;
+    gl::Program columns_, slabs_;             ///< of rays that end in the canopy
+    gl::Program crest_columns_, crest_slabs_; ///< of those that may leave it and come to another
     std::uint32_t vertex_array_ = 0;
 };
 

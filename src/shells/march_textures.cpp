@@ -50,11 +50,13 @@ MarchTextures::MarchTextures(const grass::FarMedium& march) {
 
 void MarchTextures::bind() const {
     medium_.bind_uniform(BIND_MARCH);
-    for (std::size_t kind = 0; kind < images_.size(); ++kind) {
-        images_[kind].density.bind(TEX_MARCH_DENSITY + static_cast<std::uint32_t>(kind));
-        images_[kind].fibres.bind(TEX_MARCH_FIBRES + static_cast<std::uint32_t>(kind));
-    }
     correction_.bind(TEX_MARCH_CORRECTION);
+}
+
+void MarchTextures::bind_kind(int kind) const {
+    const Images& images = images_[static_cast<std::size_t>(kind)];
+    images.density.bind(TEX_MARCH_DENSITY);
+    images.fibres.bind(TEX_MARCH_FIBRES);
 }
 
 } // namespace sward::shells

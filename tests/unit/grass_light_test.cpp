@@ -87,7 +87,7 @@ Seen look_at(const Patch& patch, double canopy, const View& view, const shared::
                 shared::blade_albedo(look, {a.root.z, a.root.w}, along, 1),
                 shared::blade_tangent(glm::vec3(b.v1), glm::vec3(b.v2), along),
                 shared::blade_curve(glm::vec3(a.v1), glm::vec3(a.v2), along).y / static_cast<float>(canopy),
-                light.to_sun.y, 1};
+                light.to_sun.y};
             seen.coverage += 1;
             seen.radiance += shared::shade_grass(look, light, point, to_eye);
         }
@@ -185,7 +185,7 @@ TEST(FarLight, SkylightDoesNotAskWhereTheSunStands) {
     shared::Light sky = light_from({0, 1, 0});
     sky.sun = {0, 0, 0, 0};
     const auto& look = small_set().species.front().look;
-    const shared::GrassPoint point{{0.1f, 0.2f, 0.05f}, heading(60, 20), 0.4f, 0.5f, 1};
+    const shared::GrassPoint point{{0.1f, 0.2f, 0.05f}, heading(60, 20), 0.4f, 0.5f};
     const glm::vec3 one = shared::shade_grass(look, sky, point, heading(40, 100));
     sky.to_sun = {heading(15, 200), shared::kSunExtinction};
     EXPECT_EQ(one, shared::shade_grass(look, sky, point, heading(40, 100))); // else the table needs a sky for each sun

@@ -68,7 +68,7 @@ TEST(Shading, GrassIsFiniteAndNonNegativeForExtremeInputs) {
             n % 3 == 0 ? vec3(light.to_sun) : direction(); // along the sun: no diffuse, no NaN
         const vec3 to_eye = n % 5 == 0 ? vec3(light.to_sun) : direction();
         const GrassPoint point{vec3(n % 7 == 0 ? 0.0f : 1.0f), tangent, 1.5f * signed_unit(random),
-                               signed_unit(random), 1};
+                               signed_unit(random)};
         EXPECT_TRUE(usable(shade_grass(look, light, point, to_eye))) << n;
         EXPECT_TRUE(
             usable(shade_soil(light, vec3(0.2f), direction(), 0.5f + 0.5f * signed_unit(random))))

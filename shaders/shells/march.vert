@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Out: a triangle over the whole screen, at a depth: that of one kind's pixels; and what the eye stands in.
+#include "lib/ground.glsl"
+#include "lib/sway.glsl"
+
+uniform float eye_height; // over the ground (m)
+uniform float plane;
+out vec2 ndc;
+flat out vec2 eye_place;
+flat out vec4 eye_ground;
+flat out vec4 eye_air;
+
+void main() {
+    ndc = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(ndc, plane, 1.0);
+    float canopy = frame.patch_grid.w;
+    vec2 wind = wind_at(frame.eye.xz);
+    float top = canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y;
+    Ground ground = ground_surface(frame.eye.xz);
+    eye_place = vec2(eye_height < top + kNear_m ? 1.0 : 0.0, eye_height);
+    eye_ground = vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
+    eye_air = vec4(wind, sway_at(frame.eye.xyz - vec3(0.0, eye_height, 0.0), wind).xy);
+}

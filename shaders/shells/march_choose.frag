@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: the canopy's upper surface. Out: as depth, by which kind of textures a pixel is to be marched (kind_depth), 0 where it sees no canopy:
+// each kind is a pass of its own over its pixels, and none of them pays for the others' fetches.
+#include "shells/march_view.glsl"
+
+in vec2 ndc;
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    View view = view_of(pixel, ndc);
+    Entry entry = entry_of(view, pixel);
+    gl_FragDepth = 0.0;
+    if (entry.distance < kNever) {
+        MarchPath path = path_of(view, entry);
+        gl_FragDepth = kind_depth(plan_of(view, entry, path).kind, at_crest(path));
+    }
+}

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pixel's ray and where it enters the canopy: for the choice of its kind and for the march itself.
+#include "lib/ground.glsl"
+#include "shared/bend.h"
+#include "shared/lod.h"
+#include "shared/march_medium.h"
+
+layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
+#include "shared/march.h"
+
+layout(binding = TEX_CANOPY_DEPTH) uniform sampler2D canopy_depth;
+layout(binding = TEX_CANOPY_GROUND) uniform sampler2D canopy_ground;
+layout(binding = TEX_CANOPY_AIR) uniform sampler2D canopy_air;
+flat in vec2 eye_place;  // 1: the eye stands in the canopy; its height over the ground (m)
+flat in vec4 eye_ground; // Entry::ground, air there
+flat in vec4 eye_air;
+
+const float kNever = 1e9;
+const float kLowPath = 3.0; // over ground within so many canopies' reach no curve is looked for
+
+struct View {
+    vec3 way;    // of the pixel's ray, unit
+    float axis;  // distance along the view axis for a metre of the ray
+    float dither;
+};
+
+// Where a ray enters the canopy, and what lies there.
+struct Entry {
+    float distance; // along the ray (m); kNever: nowhere
+    float height;   // over the ground (m)
+    vec4 ground;    // slope, density, tint
+    vec4 air;       // wind, canopy_sway
+};
+
+View view_of(ivec2 pixel, vec2 ndc) {
+    vec4 near = frame.world_from_clip * vec4(ndc, 1.0, 1.0);
+    View view;
+    view.way = normalize(near.xyz / near.w - frame.eye.xyz);
+    view.axis = (frame.clip_from_world * vec4(view.way, 0.0)).w;
+    view.dither = pixel_threshold(pixel);
+    return view;
+}
+
+vec4 ground_under(vec2 xz) {
+    Ground ground = ground_surface(xz);
+    return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
+}
+
+Entry entry_of(View view, ivec2 pixel) {
+    float depth = texelFetch(canopy_depth, pixel, 0).r;
+    float distance_m = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+    vec4 ground = texelFetch(canopy_ground, pixel, 0);
+    vec4 air = texelFetch(canopy_air, pixel, 0);
+    bool inside = eye_place.x > 0.5; // the eye stands in the canopy
+    return Entry(inside ? kNear_m : distance_m, inside ? eye_place.y : frame.patch_grid.w, inside ? eye_ground : ground, inside ? eye_air : air);
+}
+
+MarchPath path_of(View view, Entry entry) {
+    MarchPath path;
+    vec3 at = frame.eye.xyz + view.way * entry.distance;
+    float canopy = frame.patch_grid.w;
+    float speed = length(entry.air.xy);
+    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
+    path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
+    path.bend.w = march_bent_height(path, canopy);
+    float height = min(entry.height, path.bend.w);
+    path.from = vec3(at.x, height, at.z);
+    path.way = view.way;
+    float fall = view.way.y - dot(entry.ground.xy, view.way.xz);
+    float most = 40.0 * canopy + 0.02 * entry.distance;
+    float reach = fall < 0.0 ? min(height / -fall, most) : most;
+    path.height = vec4(height, fall, 0.0, 1.5 * reach + 0.1 * canopy); // beyond, the ground is another one
+    if (reach > kLowPath * canopy) { // low over the ground: it curves under the ray
+        vec2 ahead = at.xz + reach * view.way.xz;
+        float rise = ground_at(ahead) - ground_at(at.xz) - dot(entry.ground.xy, ahead - at.xz);
+        path.height.z = -rise / (reach * reach);
+    }
+    return path;
+}
+
+// May the ray leave the canopy through its top again? Where the ground falls away under it, or from within.
+bool at_crest(MarchPath path) {
+    float a = path.height.y;
+    return eye_place.x > 0.5 || a >= 0.0 || 4.0 * path.height.z * path.height.x > 0.5 * a * a;
+}
+
+// How the pixel is marched. Where there is next to no grass, as if there were a little.
+MarchPlan plan_of(View view, Entry entry, MarchPath path) {
+    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(entry.ground.z, 0.002)));
+    march_choose(plan, view.dither);
+    return plan;
+}
