@@ -4,7 +4,8 @@
     python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--away] [--period] [--ring] [-- --far planes]
 
 SWARD_BIN_DIR names the folder of the programs (default build/release/bin). References are kept in `image/far-references` beside it, under the
-hash of scene, view and set; --fresh makes them again, --pictures DIR writes truth and found side by side."""
+hash of scene, view and blades; --fresh makes them again (after a change of how blades are drawn or lit), --pictures DIR writes truth and
+found side by side. The exit code is 1 where a view is over a limit."""
 import argparse
 import shutil
 import sys

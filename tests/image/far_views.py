@@ -148,10 +148,11 @@ def reference_arguments(eye):
 
 
 def reference(land, view, cache=None):
-    """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of all it is made of."""
-    identity, poses = sward_image.meadow_set() / "set.json", land.poses(view)
+    """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of view, scene and
+    blades; not of the program or the shaders."""
+    blades, poses = sward_image.meadow_set() / "blades.glb", land.poses(view)
     arguments = reference_arguments(poses[0][0])
-    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}".encode() + identity.read_bytes()).hexdigest()[:20]
+    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{sward_image.PRESET.read_text()}".encode() + blades.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
         with np.load(path) as kept:
