@@ -46,7 +46,7 @@ VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 3
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
 
 RING = View(10, 70, 16)  # 18 degrees below the horizon to 2
-RING_SIZE, RING_YAWS = (240, 240), range(0, 300, 50)
+RING_SIZE, RING_YAWS = (240, 240), range(0, 360, 30)
 
 
 @dataclass(frozen=True)
@@ -106,20 +106,21 @@ def load(path):
     return np.concatenate([channels["color"], channels["coverage"][..., None]], axis=2)
 
 
-def render(land, fov, poses, arguments, size=(COLUMNS, ROWS)):
-    """A picture of each pose, and processor seconds, in one run of the program. Raises AssertionError with its message where it fails."""
+def render(land, shot, arguments, size=(COLUMNS, ROWS), shaders=None):
+    """`shot`: field of view and poses. A picture of each pose, and processor seconds, in one run of the program. Raises AssertionError with its message where it fails."""
     with tempfile.TemporaryDirectory(prefix="sward-far-") as name:
         folder = Path(name)
+        fov, poses = shot
         land.write(folder, fov, poses)
         result = sward_cli.run("sward", "render", "scene.toml", "-o", "out%d.exr", "--path", "view", "--time", TIME, "--fixed-timestep", STEP,
                                "--frames", f"0:{len(poses) - 1}", "--size", f"{size[0]}x{size[1]}", "--aov", "color,coverage,tier", "-q",
-                               *arguments, cwd=folder, timeout=1200)
+                               *arguments, cwd=folder, env=sward_cli.environment(SWARD_SHADERS=shaders), timeout=1200)
         assert result.code == 0, f"{arguments}: {result.err}"
         return [load(folder / f"out{i}.exr") for i in range(len(poses))], result.cpu_s
 
 
-def far(land, view, arguments=()):
-    pictures, seconds = render(land, view.fov, land.poses(view), arguments)
+def far(land, view, arguments=(), shaders=None):
+    pictures, seconds = render(land, (view.fov, land.poses(view)), arguments, shaders=shaders)
     return Pictures(*pictures, seconds)
 
 
@@ -157,7 +158,7 @@ def reference(land, view, cache=None):
     if path and path.exists():
         with np.load(path) as kept:
             return [Pictures(*(kept[f"{half}{i}"].astype(np.float64) for i in range(3))) for half in "ab"]
-    pictures, seconds = render(land, view.fov, poses[:1], arguments, (COLUMNS * view.fine, ROWS * view.fine))
+    pictures, seconds = render(land, (view.fov, poses[:1]), arguments, (COLUMNS * view.fine, ROWS * view.fine))
     halves = split(pictures[0], view.fine)
     print(f"reference {land.name()} {view}: {seconds:.0f} s", flush=True)
     if path:
@@ -204,7 +205,7 @@ def ring_change(arguments=()):
     eye = (3.0, 100 + RING.distance * math.sin(math.radians(RING.elevation)), 5.0)
     poses = [(eye, yaw, -RING.elevation) for yaw in RING_YAWS]
     size = RING_SIZE
-    pictures, _ = render(Land(), RING.fov, poses, arguments, size)
+    pictures, _ = render(Land(), (RING.fov, poses), arguments, size)
     light = np.concatenate([spectrum.luminance(p[..., :3]) for p in pictures], axis=1)
     angles = RING.elevation - np.degrees(np.arctan((size[1] / 2 - 0.5 - np.arange(size[1])) * 2 / size[1] * math.tan(math.radians(RING.fov / 2))))
     return spectrum.ring(light, (eye[1] - 100 - CANOPY_M) / np.sin(np.radians(angles)))

@@ -122,7 +122,7 @@ def period(ground, metre_px, patch_m=2.0):
     return float(np.mean([amplitude[p] for p in peaks]) / np.median(near))
 
 
-def ring(values, distance_m, octave=1, step=1.05, least_rows=5):
+def ring(values, distance_m, octave=1, step=1.05, least_rows=4):
     """Largest change of contrast and of mean luminance between neighbouring bands of distance, each 5 % longer than the one before, as
     shares of the smaller. `distance_m`: of each row's ground, far to near; several pictures may stand side by side. Contrast is of one
     octave, so at one size in the picture, and freed of the trend that all bands share: with distance a pixel holds more blades.
@@ -132,14 +132,14 @@ def ring(values, distance_m, octave=1, step=1.05, least_rows=5):
         raise NoPicture(f"found {distance.shape} distances for {values.shape}, expected one a row, falling")
     part = octaves(values)[octave].reshape(values.shape)
     band = np.floor(np.log(distance) / np.log(step)).astype(int)
-    rows = [np.flatnonzero(band == k) for k in np.unique(band)]
-    rows = [r for r in rows if r.size >= least_rows]
-    if len(rows) < 8:
-        raise NoPicture(f"found {len(rows)} bands of distance, expected 8 at least")
-    mean = np.log([values[r].mean() for r in rows])
-    spread = np.log([max(part[r].std(), 1e-12) for r in rows]) - mean
-    trend = np.median(np.diff(spread))
-    return float(np.expm1(np.abs(np.diff(spread) - trend).max())), float(np.expm1(np.abs(np.diff(mean)).max()))
+    rows = {k: np.flatnonzero(band == k) for k in np.unique(band) if np.count_nonzero(band == k) >= least_rows}
+    light = {k: np.log(values[r].mean()) for k, r in rows.items()}
+    spread = {k: np.log(max(part[r].std(), 1e-12)) - light[k] for k, r in rows.items()}
+    pairs = [(k, k + 1) for k in rows if k + 1 in rows]
+    if len(pairs) < 8:
+        raise NoPicture(f"found {len(pairs)} pairs of bands of distance, expected 8 at least")
+    lights, spreads = (np.array([of[b] - of[a] for a, b in pairs]) for of in (light, spread))
+    return float(np.expm1(np.abs(spreads - np.median(spreads)).max())), float(np.expm1(np.abs(lights).max()))
 
 
 def displayed(linear, exposure=1.0):
