@@ -44,6 +44,7 @@ class View:
 VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
          "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
+PLAN_METRE_PX = 8
 
 RING = View(10, 70, 16)  # 18 degrees below the horizon to 2
 RING_SIZE, RING_YAWS = (240, 240), range(0, 360, 30)
@@ -198,6 +199,12 @@ def ground_picture(values, view, metre_px, margin=0.94):
     up = forward * math.sin(elevation) - height * math.cos(elevation)
     column, row = COLUMNS / 2 - 0.5 + view.focal * right / depth, ROWS / 2 - 0.5 - view.focal * up / depth
     return bilinear(values, row, column)
+
+
+def plan_period(seen):
+    """spectrum.period of PLAN's Pictures: of one build, or of the truth's two renders."""
+    mean = sum(spectrum.luminance(p.still[..., :3]) for p in seen) / len(seen)
+    return spectrum.period(ground_picture(mean, PLAN, PLAN_METRE_PX), PLAN_METRE_PX)
 
 
 def ring_change(arguments=()):

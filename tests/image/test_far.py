@@ -52,9 +52,8 @@ class Far(unittest.TestCase):
 
     def period(self, arguments=None, shaders=None):
         """Of a build's picture from straight above; without arguments the truth's."""
-        truth = self.truth(LEVEL, PLAN)
-        still = (truth[0].still + truth[1].still) / 2 if arguments is None else far_views.far(LEVEL, PLAN, arguments, shaders).still
-        return spectrum.period(far_views.ground_picture(spectrum.luminance(still[..., :3]), PLAN, 8), 8)
+        seen = self.truth(LEVEL, PLAN) if arguments is None else [far_views.far(LEVEL, PLAN, arguments, shaders)]
+        return far_views.plan_period(seen)
 
     def test_march(self):
         print(far_views.HEADER)
