@@ -87,7 +87,7 @@ class Far(unittest.TestCase):
             alike = self.period(BUILDS["march"], shaders_of_one_variant(Path(folder) / "shaders"))
         print(f"period: truth {truth:.2f}; march {march / truth:.2f}, planes {planes / truth:.2f}, one variant {alike / truth:.2f} times as much")
         self.assertLessEqual(march / truth, LIMITS["period"])
-        self.assertGreater(alike / truth, LIMITS["period"])
+        self.assertGreater(alike / march, LIMITS["period"])
 
     def test_ring(self):
         found = {build: far_views.ring_change(arguments) for build, arguments in BUILDS.items()}
