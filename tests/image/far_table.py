@@ -4,7 +4,8 @@
     python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--away] [--period] [--ring] [-- --far planes]
 
 SWARD_BIN_DIR names the folder of the programs (default build/release/bin). References are kept in `image/far-references` beside it, under the
-hash of scene, view and set; --fresh makes them again, --pictures DIR writes truth and found side by side."""
+hash of scene, view and blades; --fresh makes them again (after a change of how blades are drawn or lit), --pictures DIR writes truth and
+found side by side. The exit code is 1 where a view is over a limit."""
 import argparse
 import shutil
 import sys
@@ -30,11 +31,8 @@ def write_picture(path, truth, found):
 
 
 def period_line(land, arguments):
-    view, metre_px = far_views.PLAN, 8
-    truth, found = far_views.reference(land, view, CACHE), far_views.far(land, view, arguments)
-    seen = [far_views.ground_picture(spectrum.luminance(p[..., :3]), view, metre_px)
-            for p in ((truth[0].still + truth[1].still) / 2, found.still)]
-    expected, value = (spectrum.period(s, metre_px) for s in seen)
+    truth, found = far_views.reference(land, far_views.PLAN, CACHE), far_views.far(land, far_views.PLAN, arguments)
+    expected, value = far_views.plan_period(truth), far_views.plan_period([found])
     return f"{land.name():20} period   | truth {expected:.2f}  found {value:.2f}  ratio {value / expected:.2f}"
 
 

@@ -44,9 +44,10 @@ class View:
 VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
          "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
+PLAN_METRE_PX = 8
 
 RING = View(10, 70, 16)  # 18 degrees below the horizon to 2
-RING_SIZE, RING_YAWS = (240, 240), range(0, 300, 50)
+RING_SIZE, RING_YAWS = (240, 240), range(0, 360, 30)
 
 
 @dataclass(frozen=True)
@@ -106,20 +107,21 @@ def load(path):
     return np.concatenate([channels["color"], channels["coverage"][..., None]], axis=2)
 
 
-def render(land, fov, poses, arguments, size=(COLUMNS, ROWS)):
-    """A picture of each pose, and processor seconds, in one run of the program. Raises AssertionError with its message where it fails."""
+def render(land, shot, arguments, size=(COLUMNS, ROWS), shaders=None):
+    """`shot`: field of view and poses. A picture of each pose, and processor seconds, in one run of the program. Raises AssertionError with its message where it fails."""
     with tempfile.TemporaryDirectory(prefix="sward-far-") as name:
         folder = Path(name)
+        fov, poses = shot
         land.write(folder, fov, poses)
         result = sward_cli.run("sward", "render", "scene.toml", "-o", "out%d.exr", "--path", "view", "--time", TIME, "--fixed-timestep", STEP,
                                "--frames", f"0:{len(poses) - 1}", "--size", f"{size[0]}x{size[1]}", "--aov", "color,coverage,tier", "-q",
-                               *arguments, cwd=folder, timeout=1200)
+                               *arguments, cwd=folder, env=sward_cli.environment(SWARD_SHADERS=shaders), timeout=1200)
         assert result.code == 0, f"{arguments}: {result.err}"
         return [load(folder / f"out{i}.exr") for i in range(len(poses))], result.cpu_s
 
 
-def far(land, view, arguments=()):
-    pictures, seconds = render(land, view.fov, land.poses(view), arguments)
+def far(land, view, arguments=(), shaders=None):
+    pictures, seconds = render(land, (view.fov, land.poses(view)), arguments, shaders=shaders)
     return Pictures(*pictures, seconds)
 
 
@@ -148,15 +150,16 @@ def reference_arguments(eye):
 
 
 def reference(land, view, cache=None):
-    """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of all it is made of."""
-    identity, poses = sward_image.meadow_set() / "set.json", land.poses(view)
+    """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of view, scene and
+    blades; not of the program or the shaders."""
+    blades, poses = sward_image.meadow_set() / "blades.glb", land.poses(view)
     arguments = reference_arguments(poses[0][0])
-    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}".encode() + identity.read_bytes()).hexdigest()[:20]
+    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{sward_image.PRESET.read_text()}".encode() + blades.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
         with np.load(path) as kept:
             return [Pictures(*(kept[f"{half}{i}"].astype(np.float64) for i in range(3))) for half in "ab"]
-    pictures, seconds = render(land, view.fov, poses[:1], arguments, (COLUMNS * view.fine, ROWS * view.fine))
+    pictures, seconds = render(land, (view.fov, poses[:1]), arguments, (COLUMNS * view.fine, ROWS * view.fine))
     halves = split(pictures[0], view.fine)
     print(f"reference {land.name()} {view}: {seconds:.0f} s", flush=True)
     if path:
@@ -198,12 +201,18 @@ def ground_picture(values, view, metre_px, margin=0.94):
     return bilinear(values, row, column)
 
 
+def plan_period(seen):
+    """spectrum.period of PLAN's Pictures: of one build, or of the truth's two renders."""
+    mean = sum(spectrum.luminance(p.still[..., :3]) for p in seen) / len(seen)
+    return spectrum.period(ground_picture(mean, PLAN, PLAN_METRE_PX), PLAN_METRE_PX)
+
+
 def ring_change(arguments=()):
     """spectrum.ring of the level field, seen in RING_YAWS directions so that single flowers do not count."""
     eye = (3.0, 100 + RING.distance * math.sin(math.radians(RING.elevation)), 5.0)
     poses = [(eye, yaw, -RING.elevation) for yaw in RING_YAWS]
     size = RING_SIZE
-    pictures, _ = render(Land(), RING.fov, poses, arguments, size)
+    pictures, _ = render(Land(), (RING.fov, poses), arguments, size)
     light = np.concatenate([spectrum.luminance(p[..., :3]) for p in pictures], axis=1)
     angles = RING.elevation - np.degrees(np.arctan((size[1] / 2 - 0.5 - np.arange(size[1])) * 2 / size[1] * math.tan(math.radians(RING.fov / 2))))
     return spectrum.ring(light, (eye[1] - 100 - CANOPY_M) / np.sin(np.radians(angles)))

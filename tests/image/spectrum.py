@@ -106,23 +106,23 @@ def common_sparkle(pair, moved):
 
 
 def period(ground, metre_px, patch_m=2.0):
-    """How far the spectrum stands out at the patch's period: mean amplitude at it, along x, along z and at its first harmonics, over the
-    median of what surrounds those places. `ground`: luminance seen from straight above, `metre_px` pixels a metre."""
+    """How far the spectrum stands out at the patch's period: root of the mean energy at it, along x, along z and at its first harmonics, over
+    that of what surrounds those places. `ground`: luminance seen from straight above, `metre_px` pixels a metre. Noise fills
+    the surroundings and lowers it."""
     ground = check_luminance(ground)
     side = int(min(ground.shape) / metre_px / patch_m)  # whole periods, so that they fall on whole frequencies
     if side < 4:
         raise NoPicture(f"found {side} periods of {patch_m} m, expected 4 at least")
-    pixels = side * patch_m * metre_px
-    at = np.round((np.arange(int(pixels))) * pixels / int(pixels)).astype(int)
-    cut = ground[np.ix_(at, at)]
-    window = np.hanning(cut.shape[0])
-    amplitude = np.abs(np.fft.fft2((cut / cut.mean() - 1) * np.outer(window, window)))
+    pixels = int(side * patch_m * metre_px)
+    window = np.outer(np.hanning(pixels), np.hanning(pixels))
+    cut = ground[:pixels, :pixels]
+    energy = np.abs(np.fft.fft2((cut / cut.mean() - 1) * window)) ** 2
     peaks = [(0, side), (side, 0), (side, side), (0, 2 * side), (2 * side, 0)]
-    near = [amplitude[i + di, j + dj] for i, j in peaks for di in (-2, 2) for dj in (-2, 2)]
-    return float(np.mean([amplitude[p] for p in peaks]) / np.median(near))
+    near = [energy[i + di, j + dj] for i, j in peaks for di in range(-2, 3) for dj in range(-2, 3) if max(abs(di), abs(dj)) == 2]
+    return float(np.sqrt(max(np.mean([energy[p] for p in peaks]), 0) / max(np.mean(near), 1e-12)))
 
 
-def ring(values, distance_m, octave=1, step=1.05, least_rows=5):
+def ring(values, distance_m, octave=1, step=1.05, least_rows=4):
     """Largest change of contrast and of mean luminance between neighbouring bands of distance, each 5 % longer than the one before, as
     shares of the smaller. `distance_m`: of each row's ground, far to near; several pictures may stand side by side. Contrast is of one
     octave, so at one size in the picture, and freed of the trend that all bands share: with distance a pixel holds more blades.
@@ -132,14 +132,14 @@ def ring(values, distance_m, octave=1, step=1.05, least_rows=5):
         raise NoPicture(f"found {distance.shape} distances for {values.shape}, expected one a row, falling")
     part = octaves(values)[octave].reshape(values.shape)
     band = np.floor(np.log(distance) / np.log(step)).astype(int)
-    rows = [np.flatnonzero(band == k) for k in np.unique(band)]
-    rows = [r for r in rows if r.size >= least_rows]
-    if len(rows) < 8:
-        raise NoPicture(f"found {len(rows)} bands of distance, expected 8 at least")
-    mean = np.log([values[r].mean() for r in rows])
-    spread = np.log([max(part[r].std(), 1e-12) for r in rows]) - mean
-    trend = np.median(np.diff(spread))
-    return float(np.expm1(np.abs(np.diff(spread) - trend).max())), float(np.expm1(np.abs(np.diff(mean)).max()))
+    rows = {k: np.flatnonzero(band == k) for k in np.unique(band) if np.count_nonzero(band == k) >= least_rows}
+    light = {k: np.log(values[r].mean()) for k, r in rows.items()}
+    spread = {k: np.log(max(part[r].std(), 1e-12)) - light[k] for k, r in rows.items()}
+    pairs = [(k, k + 1) for k in rows if k + 1 in rows]
+    if len(pairs) < 8:
+        raise NoPicture(f"found {len(pairs)} pairs of bands of distance, expected 8 at least")
+    lights, spreads = (np.array([of[b] - of[a] for a, b in pairs]) for of in (light, spread))
+    return float(np.expm1(np.abs(spreads - np.median(spreads)).max())), float(np.expm1(np.abs(lights).max()))
 
 
 def displayed(linear, exposure=1.0):
