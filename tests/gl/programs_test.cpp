@@ -29,8 +29,14 @@ std::vector<Variant> variants() {
                                 {{"blades/depth_pyramid.comp"}, {"FIRST"}},
                                 {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
                                 {{"blades/wake.comp"}, {}},
-                                {{"blades/physics.comp"}, {}},
-                                {{"blades/physics.comp"}, {"SURFACE"}},
+                                {{"blades/physics.comp"}, {"PHYSICS_FREE"}},
+                                {{"blades/physics.comp"}, {"PHYSICS_COLLIDING"}},
+                                {{"blades/physics.comp"}, {"PHYSICS_NEW"}},
+                                {{"blades/physics.comp"}, {"PHYSICS_ALL"}},
+                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_FREE"}},
+                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_COLLIDING"}},
+                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
+                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
                                 {{"blades/wake.comp"}, {"SURFACE"}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
