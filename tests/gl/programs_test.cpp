@@ -207,7 +207,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
     const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT},
                                                 {"clip_surface", TEX_CLIP_SURFACE},
                                                 {"heights", TEX_CLIP_HEIGHT},
-                                                {"far_images", TEX_FAR_IMAGES},
+                                                {"far_images", TEX_FAR_IMAGES}, {"record_texels", TEX_PHYSICS_BLADES},
                                                 {"far_shapes", TEX_FAR_SHAPES},
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"elevation", TEX_ELEVATION},
