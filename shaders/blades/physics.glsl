@@ -26,6 +26,11 @@ layout(std430, binding = BIND_PHYSICS_LISTS) readonly buffer Lists { uint sphere
 uniform int patches_a_page;
 uniform int buffer_number; // of the records that are bound: BladePage::run.z
 
+// Where something draws to a centre, the root's height matters to blades that nothing meets too.
+bool needs_height() {
+    return rules.memory.w > 0.0;
+}
+
 // Root of a blade of a page, anchor-relative. The root's height matters to colliders and to a centre of gravity alone: without `high` it
 // may be 0.
 vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: all patches. Out: those that have something to do in this step, as the physics pass's indirect dispatch.
+// In: all patches. Out: those that have something to do in this step, in three lists: one for each program of the physics pass and its
+// indirect dispatch.
 #include "blades/physics.glsl"
 
 layout(local_size_x = WAKE_GROUP) in;
-layout(std430, binding = BIND_PHYSICS_AWAKE) writeonly buffer Awake { uint awake[]; };
+layout(std430, binding = BIND_PHYSICS_AWAKE) writeonly buffer Awake { AwakePatch awake[]; }; // patch_count a list
 layout(std430, binding = BIND_PHYSICS_DISPATCH) buffer Dispatch {
-    uint groups;
-    uint groups_y, groups_z;
-    uint all_groups; // of all steps since the count began
+    uvec4 dispatch[kPatchLists]; // groups of a list; 1, 1; unused
+    uint stepped[kPatchLists];   // of all steps since the count began
 };
 uniform int patch_count;
 
@@ -21,7 +21,8 @@ void main() {
         return;
     }
     PatchState state = patches[patch_id];
-    bool met = sphere_lists[2u * patch_id + 1u] > 0u;
+    uvec2 spheres = uvec2(sphere_lists[2u * patch_id], sphere_lists[2u * patch_id + 1u]);
+    bool met = spheres.y > 0u;
     bool up = met && state.status != kPatchFree;
     if (state.status == kPatchNew) {
         up = met || rules.time.w == 0.0;
@@ -34,8 +35,12 @@ void main() {
         up = distance(wind_of(step_wind, root.xz), state.wind) > kStillWind_ms;
     }
     if (up) {
+        uint list = state.status == kPatchNew ? kListNew : met || needs_height() ? kListColliding : kListFree;
         // The order varies from run to run; patches know nothing of each other.
-        awake[atomicAdd(groups, 1u)] = patch_id;
-        atomicAdd(all_groups, 1u);
+        awake[list * uint(patch_count) + atomicAdd(dispatch[list].x, 1u)] = AwakePatch(page, uvec4(patch_id, spheres, state.status));
+        atomicAdd(stepped[list], 1u);
+        // It comes to rest, unless a blade says that it moves: so no workgroup has to wait for its last one.
+        patches[patch_id].status = met ? kPatchAwake : kPatchAsleep;
+        patches[patch_id].steps = state.status == kPatchNew ? 0u : state.steps + 1u;
     }
 }

@@ -73,6 +73,7 @@
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
 #define TEX_CLIP_SURFACE 1     // RGBA8 array: normal x, z, density, tint
 #define TEX_FAR_IMAGES 2       // RGBA8 array: layers or slices of one far level
+#define TEX_PHYSICS_BLADES 2   // RGBA32F buffer: records of the blades that are stepped, four texels each; beside no far images
 #define TEX_FAR_APPEARANCE 3   // RGBA16F: canopy radiance and coverage by view azimuth, elevation
 #define TEX_ELEVATION 4        // R32F: the posts
 #define TEX_MASK 5             // R8: density mask

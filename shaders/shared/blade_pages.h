@@ -24,8 +24,20 @@ struct PatchState {
     uint status;
     uint steps;  // since it was set up, for the statistics
 };
+
+// A step takes its patches by lists, each with a program of its own.
+SHARED_CONST uint kListFree = 0u;      // awake, and no collider meets them
+SHARED_CONST uint kListColliding = 1u; // some collider may
+SHARED_CONST uint kListNew = 2u;       // their blades begin
+SHARED_CONST uint kPatchLists = 3u;
+
+// An entry of a list: all that a workgroup must know of its patch before it looks at a blade. 48 bytes.
+struct AwakePatch {
+    BladePage page;
+    uvec4 work; // number of the patch; its colliders' first number and their count; status
+};
 #ifdef __cplusplus
-static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16);
+static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16 && sizeof(AwakePatch) == 48);
 #endif
 
 // A patch falls asleep when no blade remembers a push and none moves by more than this part of its length in a step; it then is

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/options.h"
+#include "scene/scene.h"
 
 namespace sward::app {
 
@@ -44,6 +45,11 @@ struct BenchReport {
 /// Suite `wind`: a step of the fluid at 1000 x 1000 beside the published scheme, in turns, and what divergence each leaves.
 /// Needs a current context.
 void bench_wind(BenchReport& report);
+
+/// Of suite `near`: steps of nature's blades by three programs and by one for all, in turns. Needs a current context.
+void bench_physics(BenchReport& report);
+/// One of the published scenes, terrains/near/`name`.
+[[nodiscard]] scene::Scene near_scene(const char* name);
 
 /// Suite `near`: the published scenes with their tables (J9), physics and culling by the number of blades. Throws Error as loading a
 /// scene does. Needs a current context.

@@ -102,12 +102,6 @@ private:
     std::map<std::string, std::vector<double>> samples_;
 };
 
-scene::Scene near_scene(const char* name) {
-    Options options;
-    options.scene = data_directory() / "terrains" / "near" / name;
-    return load_scene(options);
-}
-
 std::uint64_t held_bytes(const render::FrameStats& stats) { return stats.surface_bytes + stats.physics_bytes; }
 
 /// What a scene's table is written into.
@@ -258,7 +252,14 @@ void scaling(BenchReport& report, const Options& options) {
 
 } // namespace
 
+scene::Scene near_scene(const char* name) {
+    Options options;
+    options.scene = data_directory() / "terrains" / "near" / name;
+    return load_scene(options);
+}
+
 void bench_near(BenchReport& report, const Options& options) {
+    bench_physics(report);
     nature(report, options);
     {
         Stage stage(near_scene("helicopter"), options, "default", kRotorStarted_s);

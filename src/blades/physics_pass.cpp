@@ -2,6 +2,9 @@
 #include "blades/physics_pass.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
 
 #include <epoxy/gl.h>
 
@@ -21,8 +24,30 @@ static_assert(sizeof(Block) == 64 + 112);
 
 /// Dispatch of shaders/blades/wake.comp.
 struct Dispatch {
-    std::uint32_t groups = 0, groups_y = 1, groups_z = 1, all_groups = 0;
+    struct Groups {
+        std::uint32_t x = 0, y = 1, z = 1, unused = 0;
+    };
+    std::array<Groups, shared::kPatchLists> lists;
+    std::array<std::uint32_t, shared::kPatchLists> stepped = {};
 };
+static_assert(sizeof(Dispatch) == 20 * shared::kPatchLists);
+
+std::vector<gl::Program> step_programs(StepPrograms programs, std::vector<std::string> defines) {
+    const auto build = [&](const char* what, const char* define) {
+        std::vector<std::string> all = defines;
+        all.emplace_back(define);
+        return gl::Program(what, {"blades/physics.comp"}, std::move(all));
+    };
+    std::vector<gl::Program> out;
+    if (programs == StepPrograms::kOne) {
+        out.push_back(build("step any blades", "PHYSICS_ALL"));
+        return out;
+    }
+    out.push_back(build("step free blades", "PHYSICS_FREE")); // in the order of the lists
+    out.push_back(build("step blades that colliders meet", "PHYSICS_COLLIDING"));
+    out.push_back(build("begin blades", "PHYSICS_NEW"));
+    return out;
+}
 
 std::vector<shared::BladeRecord> in_order(const grass::GrassSet& set, const MortonOrder& order) {
     std::vector<shared::BladeRecord> out;
@@ -35,28 +60,42 @@ std::vector<shared::BladeRecord> in_order(const grass::GrassSet& set, const Mort
 
 } // namespace
 
-PhysicsPass::PhysicsPass(const grass::GrassSet& set, const Pages& pages)
+PhysicsPass::PhysicsPass(const grass::GrassSet& set, const Pages& pages, StepPrograms programs)
     : patches_a_page_(pages.order().patches_a_page), patch_count_(patches_a_page_ * static_cast<int>(pages.slots().size())),
       marked_(pages.slots().size(), false), variant_begin_(set.variant_begin), wake_("wake blades", {"blades/wake.comp"}),
-      step_("step blades", {"blades/physics.comp"}),
+      steps_(step_programs(programs, {})),
       records_(gl::Buffer::of(std::span<const shared::BladeRecord>(in_order(set, pages.order())))),
       places_(gl::Buffer::of(std::span<const std::uint32_t>(pages.order().places))), pages_(pages.slots().size() * sizeof(shared::BladePage)),
       states_(static_cast<std::size_t>(patch_count_) * CULL_GROUP * sizeof(glm::vec4)),
       patches_(static_cast<std::size_t>(patch_count_) * sizeof(shared::PatchState)),
-      awake_(static_cast<std::size_t>(patch_count_) * sizeof(std::uint32_t)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
+      awake_(static_cast<std::size_t>(patch_count_) * shared::kPatchLists * sizeof(shared::AwakePatch)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
     states_.clear_to_zero();
     patches_.clear_to_zero();
+    make_textures();
     begin_count();
 }
 
-PhysicsPass::PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots)
+PhysicsPass::PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots, StepPrograms programs)
     : patches_a_page_(1), patch_count_(static_cast<int>(slots)), marked_(slots, false), records_of_mesh_(std::move(records)),
-      wake_("wake surface blades", {"blades/wake.comp"}, {"SURFACE"}), step_("step surface blades", {"blades/physics.comp"}, {"SURFACE"}),
+      wake_("wake surface blades", {"blades/wake.comp"}, {"SURFACE"}), steps_(step_programs(programs, {"SURFACE"})),
       pages_(slots * sizeof(shared::BladePage)), states_(slots * CULL_GROUP * sizeof(glm::vec4)), patches_(slots * sizeof(shared::PatchState)),
-      awake_(slots * sizeof(std::uint32_t)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
+      awake_(slots * shared::kPatchLists * sizeof(shared::AwakePatch)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
     states_.clear_to_zero();
     patches_.clear_to_zero();
+    make_textures();
     begin_count();
+}
+
+PhysicsPass::~PhysicsPass() { glDeleteTextures(static_cast<GLsizei>(record_textures_.size()), record_textures_.data()); }
+
+void PhysicsPass::make_textures() {
+    const std::vector<const gl::Buffer*> own = {&records_};
+    for (const gl::Buffer* records : records_of_mesh_.empty() ? own : records_of_mesh_) {
+        GLuint texture = 0;
+        glCreateTextures(GL_TEXTURE_BUFFER, 1, &texture);
+        glTextureBuffer(texture, GL_RGBA32F, records->id());
+        record_textures_.push_back(texture);
+    }
 }
 
 void PhysicsPass::begin_count() {
@@ -140,19 +179,24 @@ void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& 
 }
 
 void PhysicsPass::step_records(const gl::Buffer& records, int number) {
-    const std::uint32_t none = 0;
-    dispatch_.upload(&none, sizeof(none)); // the groups; what follows them stays
+    const decltype(Dispatch::lists) none;
+    dispatch_.upload(none.data(), sizeof(none)); // what follows the lists stays
     records.bind_storage(BIND_PHYSICS_BLADES);
+    glBindTextureUnit(TEX_PHYSICS_BLADES, record_textures_[static_cast<std::size_t>(number)]);
     wake_.use();
     wake_.set("patch_count", patch_count_);
     wake_.set("patches_a_page", patches_a_page_);
     wake_.set("buffer_number", number);
     glDispatchCompute(static_cast<GLuint>((patch_count_ + WAKE_GROUP - 1) / WAKE_GROUP), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
-    step_.use();
-    step_.set("patches_a_page", patches_a_page_);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, dispatch_.id());
-    glDispatchComputeIndirect(0);
+    for (std::uint32_t list = 0; list < shared::kPatchLists; ++list) {
+        const gl::Program& step = steps_[steps_.size() > 1 ? list : 0];
+        step.use();
+        step.set("patches_a_page", patches_a_page_);
+        step.set("list_begin", static_cast<int>(list) * patch_count_);
+        glDispatchComputeIndirect(static_cast<GLintptr>(list * sizeof(Dispatch::Groups)));
+    }
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
@@ -166,7 +210,20 @@ void PhysicsPass::bind_for_drawing() const {
 std::uint64_t PhysicsPass::stepped_patches() const {
     Dispatch dispatch;
     dispatch_.read(&dispatch, sizeof(dispatch));
-    return dispatch.all_groups;
+    return std::accumulate(dispatch.stepped.begin(), dispatch.stepped.end(), std::uint64_t{0});
+}
+
+std::vector<std::uint32_t> PhysicsPass::listed(std::uint32_t list) const {
+    Dispatch dispatch;
+    dispatch_.read(&dispatch, sizeof(dispatch));
+    std::vector<shared::AwakePatch> entries(dispatch.lists[list].x);
+    awake_.read(entries.data(), entries.size() * sizeof(shared::AwakePatch),
+                list * static_cast<std::size_t>(patch_count_) * sizeof(shared::AwakePatch));
+    std::vector<std::uint32_t> out;
+    for (const shared::AwakePatch& entry : entries) {
+        out.push_back(entry.work.x);
+    }
+    return out;
 }
 
 std::size_t PhysicsPass::bytes() const {
@@ -179,7 +236,9 @@ std::size_t PhysicsPass::bytes() const {
 
 void PhysicsPass::reload() {
     wake_.reload();
-    step_.reload();
+    for (gl::Program& step : steps_) {
+        step.reload();
+    }
 }
 
 } // namespace sward::blades

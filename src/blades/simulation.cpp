@@ -72,7 +72,7 @@ void LivingBlades::advance(double time_s, const Inputs& inputs) {
 
 Simulation::Simulation(const grass::GrassSet& set, double response, Settings settings)
     : LivingBlades(settings, set.canopy_m, response), side_m_(set.side_m), variant_begin_(set.variant_begin), pages_(set, settings.pages),
-      pass_(set, pages_) {
+      pass_(set, pages_, settings.programs) {
     for (const shared::BladeRecord& blade : set.blades) {
         blade_reach_m_ = std::max<double>(blade_reach_m_, blade.shape.y);
     }

@@ -22,6 +22,7 @@ public:
     struct Settings {
         Pages::Settings pages;
         double step_s = kStep_s; ///< of the physics; cost falls as it grows, past 1/20 s stiff blades overshoot
+        StepPrograms programs = StepPrograms::kThree;
     };
     virtual ~LivingBlades() = default;
     LivingBlades(const LivingBlades&) = delete;

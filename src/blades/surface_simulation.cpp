@@ -78,7 +78,7 @@ SurfaceSimulation::SurfaceSimulation(const std::vector<Records>& records, double
     : LivingBlades(settings, canopy_m, 0), clusters_(all_clusters(records)), buffer_of_(buffers(records)), tree_(clusters_),
       slot_of_(clusters_.size(), 0),
       cluster_of_(std::min(clusters_.size(), settings.pages.most_bytes / (CULL_GROUP * sizeof(glm::vec4))), -1),
-      pass_(blade_buffers(records), cluster_of_.size()),
+      pass_(blade_buffers(records), cluster_of_.size(), settings.programs),
       slot_buffer_(gl::Buffer::of(std::span<const std::uint32_t>(slot_of_))), radius_m_(settings.pages.radius_m) {}
 
 void SurfaceSimulation::clear() {

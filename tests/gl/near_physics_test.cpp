@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "blades/simulation.h"
@@ -285,6 +286,57 @@ TEST_F(NearPhysics, PatchesAtRestAreNotDispatched) {
     for (const One& one : living(simulation)) {
         ASSERT_LT(glm::length(states[one.at]), 1e-4f);
     }
+}
+
+TEST_F(NearPhysics, EachPatchIsInTheListOfWhatItMeets) {
+    wind::Wind wind(SmallWorld::breeze(), 0.1);
+    auto balls = colliders({});
+    Simulation simulation = this->simulation();
+    const auto listed = [&](std::uint32_t list) {
+        const auto found = simulation.pass().listed(list);
+        const std::set<std::uint32_t> once(found.begin(), found.end());
+        EXPECT_EQ(once.size(), found.size());
+        return once;
+    };
+    simulation.advance(0, inputs(wind, balls));
+    std::set<std::uint32_t> all;
+    for (const One& one : living(simulation)) {
+        all.insert(static_cast<std::uint32_t>(one.patch));
+    }
+    EXPECT_EQ(listed(shared::kListNew), all);
+    EXPECT_TRUE(listed(shared::kListFree).empty());
+    EXPECT_TRUE(listed(shared::kListColliding).empty());
+    // A ball; and a step to the side, so that pages come and go.
+    balls.set_host_spheres({{{70, kGround_m + 0.2, -121}, 0.2}}, kStep_s);
+    const glm::dvec3 eye = kEye + glm::dvec3(2, 0, 0);
+    simulation.advance(kStep_s, inputs(wind, balls, eye));
+    const auto lists = blades::sphere_lists(simulation.pages(), world_.set.side_m, 0.3, balls.at(kStep_s, kStep_s), world_.anchor);
+    const auto begun = listed(shared::kListNew), met = listed(shared::kListColliding), free = listed(shared::kListFree);
+    std::set<std::uint32_t> patches;
+    for (const One& one : living(simulation)) {
+        const auto patch = static_cast<std::uint32_t>(one.patch);
+        patches.insert(patch);
+        EXPECT_EQ(begun.contains(patch) + met.contains(patch) + free.contains(patch), 1) << patch; // the wind blows: all are awake
+        if (!begun.contains(patch)) {
+            EXPECT_EQ(met.contains(patch), lists.lists[2 * one.patch + 1] > 0) << patch;
+        }
+    }
+    EXPECT_EQ(begun.size() + met.size() + free.size(), patches.size());
+    EXPECT_FALSE(begun.empty());
+    EXPECT_FALSE(met.empty());
+    EXPECT_FALSE(free.empty());
+}
+
+TEST_F(NearPhysics, OneProgramForAllGivesTheSameBits) {
+    wind::Wind wind(SmallWorld::breeze(), 0.1);
+    const auto balls = colliders(ball_scene());
+    Simulation three = simulation(), one(world_.set, world_.frame.wind.mean.w, {{3, 64ull << 20}, kStep_s, blades::StepPrograms::kOne});
+    for (int step = 0; step <= 90; ++step) {
+        three.advance(step * kStep_s, inputs(wind, balls));
+        one.advance(step * kStep_s, inputs(wind, balls));
+    }
+    EXPECT_EQ(states_of(three), states_of(one));
+    EXPECT_EQ(three.pass().stepped_patches(), one.pass().stepped_patches());
 }
 
 /// Times a run of steps on what draws here, which in software is the work; best of three.
