@@ -26,13 +26,32 @@ class Outputs(CliCase):
         self.refuse_output(5, ["/dev/full", "a device"], "/dev/full")
         self.refuse_output(5, ["pipe.png", "FIFO"], "pipe.png")
         self.refuse_output(5, ["loop.png"], "loop.png")
-        self.refuse_output(5, ["missing"], "missing/out.png")
+        self.refuse_output(5, ["file"], "file/deep/out.png")
         self.refuse_output(5, ["file"], "file/out.png")
         self.refuse_output(5, ["too long"], "n" * 300 + ".png")
         self.refuse_output(2, ["--output", "found \"\""], "")
         for name in ("out", "out.jpg", "out.png.txt", ".png", "out."):
             with self.subTest(name=name):
                 self.refuse_output(2, ["--output", name], name)
+
+    def test_folders_are_made(self):
+        """The folder of an output is made, once there is something to put into it; a frame's number belongs to the name alone."""
+        self.assert_done(self.render("-o", "new/deeper/out.png", "--stats", "other/s.json"))
+        self.assertTrue((self.dir / "new/deeper/out.png").exists())
+        self.assertTrue((self.dir / "other/s.json").exists())
+        self.assert_done(self.render("-o", "out/100% gras/%d/f.%04d.png", "--frames", "0:1"))
+        self.assertEqual(sorted(p.name for p in (self.dir / "out/100% gras/%d").iterdir()), ["f.0000.png", "f.0001.png"])
+        self.refuse_output(2, ["--output", "%04d"], "f.%04d/out.png", "--frames", "0:1")
+
+    def test_no_working_directory(self):
+        """A relative output in a folder that is gone: the contract's line and code."""
+        scene = self.dir / "scene.toml"
+        gone = self.dir / "gone"
+        gone.mkdir()
+        result = sward_cli.run("sward", "render", scene, "-o", "out.png", "--size", SIZE, cwd=gone, limits=lambda: os.rmdir(gone))
+        self.assertEqual(result.code, 5, result.err)
+        self.assertEqual(len(result.err.splitlines()), 1, result.err)
+        self.assertTrue(result.err.startswith("error: "), result.err)
 
     def test_inputs(self):
         """An output that is the scene's own file under any name is refused."""

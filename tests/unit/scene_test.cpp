@@ -620,7 +620,7 @@ TEST_F(Hgt, RefusesWrongSizesAndNames) {
     put(dir_ / "N36W085.hgt", std::string(1000, 'x'));
     EXPECT_NE(error_of([&] {
                   (void)read_hgt(dir_ / "N36W085.hgt");
-              }).find("not an .hgt tile: found 1000 bytes, expected 2884802 or 25934402 bytes"),
+              }).find("not an .hgt tile: found 1000 bytes, expected 2884802 bytes (1201 x 1201 posts), 25934402 (3601 x 3601)"),
               std::string::npos);
     put(dir_ / "N37W085.hgt", "");
     EXPECT_NE(error_of([&] { (void)read_hgt(dir_ / "N37W085.hgt"); }).find("found 0 bytes"),
