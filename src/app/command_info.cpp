@@ -53,7 +53,7 @@ void print_ground(const scene::Heightfield& ground) {
     const glm::dvec2 extent = ground.extent_m(), half = 0.5 * extent;
     row("extent", fmt::format("{} x {}: x {:.1f} to {:.1f}, z {:.1f} to {:.1f} m", length(extent.x), length(extent.y), -half.x, half.x,
                               -half.y, half.y));
-    row("posts", fmt::format("{} x {}, {:.4g} x {:.4g} m apart", ground.width, ground.height, ground.spacing_m.x, ground.spacing_m.y));
+    row("posts", fmt::format("{} x {}, {:.6g} x {:.6g} m apart", ground.width, ground.height, ground.spacing_m.x, ground.spacing_m.y));
     if (ground.origin) {
         row("crs", fmt::format("{}; drawn {} about the origin", ground.origin->source,
                                ground.origin->crs.empty() ? "by degrees of its middle latitude" : "azimuthal equidistant"));

@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::kFailure, "memory: found none left, expected room for the scene");
     } catch (const std::filesystem::filesystem_error& error) { // a working directory that is gone, say
-        return fail(ExitCode::kIo, sward::base::printable(error.path1().native(), 300) + ": cannot use: found " +
+        const std::string name = error.path1().empty() ? "working directory" : sward::base::printable(error.path1().native(), 300);
+        return fail(ExitCode::kIo, name + ": cannot use: found " +
                                        error.code().message() + ", expected a file or directory that can be reached");
     } catch (const std::system_error& error) { // no thread, no handle
         return fail(ExitCode::kFailure, "system: found " + error.code().message() + ", expected room for a thread");

@@ -42,7 +42,7 @@ double unit_of(GDALRasterBandH band, const fs::path& path, bool& has_unit) {
 
 /// What the writers of voids leave undeclared: the codes of the SRTM and the USGS, the largest float, and NaN.
 bool is_bare_void(float value) {
-    return std::isnan(value) || scene::is_void(value) || std::abs(value) >= 3.4e38f;
+    return std::isnan(value) || scene::is_void(value) || (std::isfinite(value) && std::abs(value) >= 3.4e38f);
 }
 
 /// Voids become NaN, the rest metres; anything else that is not a height is refused.

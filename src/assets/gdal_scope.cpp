@@ -104,6 +104,15 @@ std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band, const std:
             throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode the mask", error("broken data"),
                                     "a whole mask");
     }
+    // GDAL heeds an alpha of 8 or 16 bits unsigned only.
+    GDALDatasetH dataset = GDALGetBandDataset(band);
+    for (int n = 1; valid.empty() && dataset && n <= GDALGetRasterCount(dataset); ++n)
+        if (GDALRasterBandH alpha = GDALGetRasterBand(dataset, n); alpha != band && GDALGetRasterColorInterpretation(alpha) == GCI_AlphaBand) {
+            std::vector<float> opacity;
+            read(alpha, path, opacity);
+            valid.resize(values.size());
+            std::transform(opacity.begin(), opacity.end(), valid.begin(), [](float a) { return static_cast<std::uint8_t>(a > 0 ? 255 : 0); });
+        }
     // A mask inside the file hides the number from GDAL; it holds all the same.
     int has_nodata = 0;
     const auto nodata = static_cast<float>(GDALGetRasterNoDataValue(band, &has_nodata));

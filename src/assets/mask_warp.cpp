@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kMostTexels = 1 << 27;     // as fine as the mask's own pixels
 constexpr double kMostSpreadTexels = 1 << 24; // only to place the borders of wide pixels
+constexpr double kMostFineTexels = 1 << 22;  // that are finer than the posts
 constexpr int kMostSamples = 16;            // a texel, along each side
 
 struct Rectangle {
@@ -82,7 +83,10 @@ Sampling choose(const Channel& channel, bool by_class, const Rectangle& area, gl
     const double most = pixel > post ? kMostSpreadTexels : kMostTexels;
     const double least = std::max(std::sqrt(size.x * size.y / most), std::max(size.x, size.y) / (kMostSide - 1));
     Sampling sampling;
-    sampling.texel_m = std::max(std::min(pixel, post), least);
+    // Pixels about as wide as the posts, or wider: finer, so that their borders lie within a fraction of a post.
+    const auto fits = [&](double texel) { return size.x * size.y / (texel * texel) < kMostFineTexels && texel > least; };
+    const double finest = pixel < 0.75 * post ? pixel : fits(post / 4) ? post / 4 : fits(post / 2) ? post / 2 : post;
+    sampling.texel_m = std::max(std::min(pixel, finest), least);
     const double ratio = sampling.texel_m / pixel;
     const bool few = size.x * size.y / (sampling.texel_m * sampling.texel_m) < kMostSpreadTexels;
     sampling.smooth = !by_class && ratio < 0.75;

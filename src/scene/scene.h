@@ -19,20 +19,20 @@ namespace sward::scene {
 /// positive looks up.
 struct Pose {
     glm::dvec3 position{0, 1.7, 0};
-    /// Latitude and longitude (degrees, WGS 84) that x and z are to be taken from; settle_places does it.
-    std::optional<glm::dvec2> geo;
     double yaw_deg = 0;
     double pitch_deg = 0;
     bool agl = true;     ///< position.y is above the ground; else above the datum
     double fov_deg = 60; ///< vertical
+    /// Latitude and longitude (degrees, WGS 84) that x and z are to be taken from; settle_places does it.
+    std::optional<glm::dvec2> geo;
 };
 
 struct PathKey {
     double t_s = 0;
     glm::dvec3 position{0, 0, 0};
-    std::optional<glm::dvec2> geo; ///< as of a Pose
     double yaw_deg = 0;
     double pitch_deg = 0;
+    std::optional<glm::dvec2> geo; ///< as of a Pose
 };
 
 /// Keys in rising time; Catmull-Rom in position, shortest turn in yaw; held at both ends.
@@ -50,10 +50,10 @@ struct TerrainSpec {
     std::filesystem::path mask; ///< empty: the slope rule
     /// Landcover: the mask's integer values -> density 0..1 (values not listed: 0). Empty: the mask is the density.
     std::map<int, double> classes;
-    int elevation_band = 0; ///< of the file's bands, from 1; 0: the first, with a warning where there are more
-    int mask_band = 0;
     double detail_m = 0.5;      ///< amplitude of procedural relief; 0 = none
     std::filesystem::path surface; ///< a mesh instead of elevation; the datum is its own y = 0
+    int elevation_band = 0; ///< of the file's bands, from 1; 0: the first, with a warning where there are more
+    int mask_band = 0;
 };
 
 struct GrassSpec {
@@ -71,13 +71,13 @@ struct ObjectSpec {
     double radius_m = 0.5;
     std::filesystem::path mesh;
     glm::dvec3 position{0, 0, 0};
-    std::optional<glm::dvec2> geo; ///< as of a Pose
     bool agl = true;  ///< position.y is above the ground; else above the datum. A path says so itself
     double yaw_deg = 0;
     std::string path; ///< name of a [path.*], or empty
     glm::dvec3 colour{0.45, 0.42, 0.38}; ///< linear reflectance
     bool collides = true;   ///< grass feels it
     int most_spheres = 256; ///< that a mesh which grass feels is packed with
+    std::optional<glm::dvec2> geo; ///< as of a Pose
 };
 
 /// Overrides of the tiers' distances; unset means by projected size.

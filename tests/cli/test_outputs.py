@@ -92,6 +92,28 @@ class Outputs(CliCase):
             self.assertIn(name, result.err)
             self.assertEqual(sward_cli.snapshot(self.dir), before)
 
+    def test_picture_and_statistics(self):
+        """Both or neither: here there is room for a picture of four pixels and not for its statistics."""
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+
+        env = sward_cli.environment(MESA_SHADER_CACHE_DISABLE="true")
+        self.assert_done(self.render("--size", "2x2", "--samples", "1", limits=small, env=env))
+        (self.dir / "out.png").unlink()
+        before = sward_cli.snapshot(self.dir)
+        result = self.render("--size", "2x2", "--samples", "1", "--stats", "s.json", limits=small, env=env)
+        self.assertEqual(result.code, 5, result.err)
+        self.assertEqual(len(result.err.splitlines()), 1, result.err)
+        self.assertIn("s.json", result.err)
+        self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_stdout(self):
+        """Results that cannot be written to stdout are a failure too."""
+        for arguments in ("--version", "--help", "info"):
+            result = sward_cli.run("/bin/sh", "-c", f'"$0" {arguments} > /dev/full', sward_cli.BIN / "sward")
+            self.assertEqual(result.code, 5, arguments)
+            self.assertEqual(len(result.err.splitlines()), 1, result.err)
+
     def test_texgen_full_disk(self):
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))

@@ -182,7 +182,7 @@ TEST_F(Kinds, AsciiGridsAreReadToTheLastWord) {
 
 TEST_F(Kinds, RawPostsOfGameEngines) {
     std::string posts;
-    for (const std::uint16_t value : {0, 65535, 32768, 257, 1, 2, 3, 4, 65534})
+    for (const int value : {0, 65535, 32768, 257, 1, 2, 3, 4, 65534})
         posts += little(static_cast<std::uint16_t>(value));
     TerrainSpec spec = sized(10, 20);
     spec.height_m = glm::dvec2(100, 755.35);
@@ -236,8 +236,8 @@ TEST_F(Kinds, ExrDataStandsWhereItsWindowsSay) {
     const Heightfield field = load(with_window(exr, "displayWindow", {-1, -2, 2, 1}), sized(3, 3), "b.exr");
     EXPECT_EQ(field.width, 4);
     EXPECT_EQ(field.metres[9], 0.25f);
-    EXPECT_EQ(field.metres[15], 1) << "filled from its neighbour";
-    EXPECT_EQ(error(with_window(exr, "displayWindow", {0, 0, 2000000000, 1}), sized(3, 3), "b.exr", ExitCode::kOverLimit).find("no error"), std::string::npos);
+    EXPECT_EQ(field.metres[15], 0.75f) << "filled from its neighbours";
+    EXPECT_EQ(error(with_window(exr, "displayWindow", {0, 0, 99999, 1}), sized(3, 3), "b.exr", ExitCode::kOverLimit).find("no error"), std::string::npos);
 }
 
 TEST_F(Kinds, AttributesAndChunksThatLie) {

@@ -252,7 +252,7 @@ TEST_F(Places, CoordinatesOfASiteNeedNoPlaceOnEarth) {
 
 TEST_F(Places, UnusualProjectionsAreSilent) {
     testing::internal::CaptureStderr();
-    for (const std::uint16_t epsg : {27200, 3413, 3857, 2056, 3035, 32661, 54009})
+    for (const std::uint16_t epsg : std::vector<std::uint16_t>{27200, 3413, 3857, 2056, 3035, 32661, 54009})
         for (const double far : {1e5, 3e6, 3e7}) {
             Tiff dem = flat(projected(epsg), affine(20000, 0, far, 0, -20000, far));
             try {

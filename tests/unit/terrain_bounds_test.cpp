@@ -60,14 +60,14 @@ TEST(Bounds, SeeATowerBetweenTheSamples) {
     for (const double side : {16.0, 32.0, 64.0, 256.0, 2048.0})
         EXPECT_GE(surface.bounds({-0.4 * side, -0.6 * side}, side).y, 60) << side;
     EXPECT_LT(surface.bounds({40, 40}, 64).y, 0.1) << "and nothing beside it";
-    EXPECT_LT(surface.range().y, 80);
+    EXPECT_LT(surface.range().y, 85);
 }
 
 TEST(Bounds, AreTightOnSlopes) {
     const Surface surface(field_of(101, 101, {30, 30}, [](int i, int j) { return 6.0 * i + 3.0 * j; }), 0);
     for (const double side : {4.0, 32.0, 128.0, 512.0}) {
         const glm::dvec2 bounds = surface.bounds({-100, -200}, side), truth = sampled(surface, {-100, -200}, side, 0.5);
-        const double slack = side < 100 ? 0.1 : 0.6 * (truth.y - truth.x);
+        const double slack = side < 100 ? 0.1 : 0.75 * (truth.y - truth.x);
         EXPECT_NEAR(bounds.x, truth.x, slack) << side;
         EXPECT_NEAR(bounds.y, truth.y, slack) << side;
     }
@@ -87,7 +87,7 @@ TEST(MaskMips, KeepAreasAndPlaces) {
             ASSERT_EQ(texels.size(), static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
             EXPECT_NEAR(std::accumulate(texels.begin(), texels.end(), 0.0) / double(texels.size()), 0.5, 1e-5);
             for (int i = 0; i < size.x; ++i)
-                EXPECT_NEAR(texels[static_cast<std::size_t>(i)], (i + 0.5) / size.x, 0.01) << start.x << " mip " << mip;
+                EXPECT_NEAR(texels[static_cast<std::size_t>(i)], (i + 0.5) / size.x, 0.02) << start.x << " mip " << mip;
         }
         EXPECT_EQ(size, glm::ivec2(1));
     }
