@@ -41,7 +41,7 @@ Tiff flat(const std::vector<std::uint16_t>& keys, const std::vector<double>& mat
 /// Latitude and longitude of a place of the terrain, by Newton steps on the way back.
 glm::dvec2 on_earth(const scene::Georeference& frame, glm::dvec2 place) {
     glm::dvec2 geo(frame.latitude_deg, frame.longitude_deg);
-    for (int step = 0; step < 30; ++step) {
+    for (int step = 0; step < 8; ++step) {
         constexpr double kE = 1e-4;
         const glm::dvec2 at = local_place(frame, geo.x, geo.y);
         const glm::dvec2 da = (local_place(frame, geo.x + (geo.x > 0 ? -kE : kE), geo.y) - at) / (geo.x > 0 ? -kE : kE);
