@@ -4,6 +4,7 @@
 
 layout(binding = TEX_CLIP_HEIGHT) uniform sampler2DArray clip_height;
 layout(binding = TEX_CLIP_SURFACE) uniform sampler2DArray clip_surface;
+layout(binding = TEX_MASK) uniform sampler2D mask;
 
 // A level is whole out to 56 cells from the eye (its window moves in steps of 16); it dissolves into the next before that.
 const float kBlendStart = 40.0;
@@ -43,11 +44,33 @@ struct Ground {
     float tint;    // slow variation of soil and sward, 0..1
 };
 
-Ground ground_surface(vec2 xz) {
+// Density by the scene's mask, as the mean over `width` metres: not through the clipmap, whose posts far away are wider than the
+// roads that a mask shows.
+float mask_density(vec2 xz, float width) {
+    vec2 uv = xz * frame.mask_place.zw + frame.mask_place.xy;
+    if (frame.clip_layout.w == kMaskBounded && clamp(uv, vec2(0.0), vec2(1.0)) != uv) {
+        return 0.0;
+    }
+    vec2 texels = vec2(textureSize(mask, 0)) * frame.mask_place.zw;
+    return textureLod(mask, uv, log2(max(width * max(texels.x, texels.y), 1.0))).r;
+}
+
+// `width`: of what the answer stands for (m); a pixel at least.
+Ground ground_surface(vec2 xz, float width) {
     ClipPlace place = clip_place(xz);
     vec4 fine = textureLod(clip_surface, clip_uv(xz, place.level), 0.0);
     vec4 coarse = textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0);
     vec4 s = mix(fine, coarse, place.blend);
     vec2 n = (s.xy * 255.0 - 128.0) / 127.0;
-    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), s.z * frame.grass.y, s.w);
+    float density = s.z;
+    if (frame.clip_layout.w != kMaskNone) {
+        float height = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.grass.w;
+        float pixel = distance(vec3(xz.x, height, xz.y), frame.eye.xyz) / frame.eye.w;
+        density = mask_density(xz, max(width, pixel));
+    }
+    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.grass.y, s.w);
+}
+
+Ground ground_surface(vec2 xz) {
+    return ground_surface(xz, 0.0);
 }

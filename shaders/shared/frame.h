@@ -16,6 +16,10 @@ SHARED_CONST float kNear_m = 0.05f; // near plane; reversed depth holds near / d
 SHARED_CONST int kShareSteps = 12; // of view elevation, 7.5 degrees each
 SHARED_CONST int kClipCells = 128; // posts a side of a clipmap level; memory grows with its square
 
+SHARED_CONST int kMaskNone = 0;    // density by the slope
+SHARED_CONST int kMaskEndless = 1; // the mask's rim goes on outside it
+SHARED_CONST int kMaskBounded = 2; // no grass outside it
+
 struct FrameConstants {
     mat4 clip_from_world;
     mat4 world_from_clip;
@@ -30,16 +34,17 @@ struct FrameConstants {
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
     vec4 shell_share[kShareSteps + 1]; // share of the shells' blades shown, by view elevation; xyzw: far level
     vec4 slice_share[kShareSteps + 1]; // x: share of the slices likewise
-    ivec4 clip_layout;             // levels of the clipmap; width and height of the picture (pixels); unused
+    ivec4 clip_layout;             // levels of the clipmap; width and height of the picture (pixels); kMask*
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance looks[kMaxSpecies];
     Light light;
     WindField wind;
     vec4 ground_colours[2]; // soil, bare rock; a: unused
+    vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 64);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -14,7 +14,7 @@ SHARED_CONST float kReliefWavelength_m = 64.0f; // the longest
 // What a clipmap level is made from. 64 bytes.
 struct SurfaceParams {
     vec4 grid;   // posts in x, z; spacing x, z (m)
-    vec4 relief; // amplitude (m); unused; mask present (1); density slope limits are constants below
+    vec4 relief; // amplitude (m); unused
     ivec4 level; // first post i, j of this level's window (world posts), level number, unused
     vec4 step;   // spacing of this level (m); unused
 };

@@ -16,7 +16,7 @@ void main() {
     TerrainBlock block = blocks[index / kBlockPosts];
     int post = index % kBlockPosts;
     vec2 xz = block.place.xy + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.place.z;
-    Ground ground = ground_surface(xz);
+    Ground ground = ground_surface(xz, block.place.z);
     vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
     float height = ground_at(xz);
     vec2 wind = wind_at(xz);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a clipmap level's heights. Out: its normal, grass density and tint. Posts at the window's rim take wrapped neighbours;
+// In: a clipmap level's heights. Out: its normal, grass density by the slope, and tint. Posts at the window's rim take wrapped neighbours;
 // nothing reads them (ground.glsl leaves a level 8 posts before).
 #include "shared/bindings.h"
 #include "shared/frame.h"
@@ -8,7 +8,6 @@
 layout(local_size_x = CLIP_GROUP, local_size_y = CLIP_GROUP) in;
 layout(std140, binding = BIND_SURFACE) uniform SurfaceBlock { SurfaceParams params; };
 layout(binding = TEX_CLIP_HEIGHT) uniform sampler2DArray heights;
-layout(binding = TEX_MASK) uniform sampler2D mask;
 layout(rgba8, binding = 0) uniform writeonly image2D surfaces;
 
 float height_at(ivec2 texel) {
@@ -22,8 +21,7 @@ void main() {
     vec2 slope = vec2(height_at(texel + ivec2(1, 0)) - height_at(texel - ivec2(1, 0)),
                       height_at(texel + ivec2(0, 1)) - height_at(texel - ivec2(0, 1))) / (2.0 * params.step.x);
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
-    vec2 extent = params.grid.zw * (params.grid.xy - 1.0);
-    float density = params.relief.z > 0.5 ? textureLod(mask, xz / extent + 0.5, 0.0).r : slope_density(normal, xz);
+    float density = slope_density(normal, xz);
     float tint = clamp(0.5 + 0.5 * gradient_noise(xz / 310.0) + 0.35 * gradient_noise(xz / 71.0) +
                        (params.step.x <= 8.0 ? 0.2 * gradient_noise(xz / 19.0) : 0.0), 0.0, 1.0);
     imageStore(surfaces, texel, vec4((normal.xz * 127.0 + 128.0) / 255.0, density, tint));

@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -57,7 +58,12 @@ int run_program(const std::filesystem::path& program, const std::vector<std::str
         if (errno != EINTR)
             throw base::input_error(base::ExitCode::kIo, program, 0, "cannot wait",
                                     std::strerror(errno), "its end");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    if (WIFSIGNALED(status))
+        throw base::input_error(base::ExitCode::kFailure, program, 0, "ended before it was done",
+                                fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status))), "its end with a result");
+    if (WEXITSTATUS(status) == kCannotStart)
+        throw base::input_error(base::ExitCode::kIo, program, 0, "cannot run", "a program that does not start", "the program beside sward");
+    return WEXITSTATUS(status);
 }
 
 } // namespace sward::app

@@ -6,6 +6,7 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
+#include "app/output_names.h"
 #include "base/file.h"
 #include "base/log.h"
 #include "gl/context.h"
@@ -19,7 +20,7 @@ Spread spread_of(std::vector<double> samples) {
 
 void run_bench(const Options& options) {
     if (!options.bench_json.empty())
-        base::require_writable(options.bench_json);
+        require_place(options.bench_json);
     const gl::HeadlessContext context;
     BenchReport report;
     if (options.bench_suite != "near")
@@ -52,8 +53,10 @@ void run_bench(const Options& options) {
         fmt::print("{:<44} {:9.5f}, limit {} {}\n", check.name, check.value, check.limit, check.ok() ? "ok" : "MISSED");
     }
     const Json json = {{"gpu", gl::context_info().renderer}, {"suite", options.bench_suite}, {"rows", rows}, {"figures", figures}, {"checks", checks}};
-    if (!options.bench_json.empty())
+    if (!options.bench_json.empty()) {
+        make_parent(options.bench_json);
         base::write_file_atomic(options.bench_json, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    }
     if (!all)
         throw base::Error(base::ExitCode::kFailure, fmt::format("bench {}: found a figure over its limit, expected none", options.bench_suite));
 }

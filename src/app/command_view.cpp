@@ -9,6 +9,7 @@
 #include "app/arrow_panel.h"
 #include "app/capture.h"
 #include "app/commands.h"
+#include "app/io.h"
 #include "app/controls.h"
 #include "app/panel.h"
 #include "app/poses.h"
@@ -31,10 +32,10 @@ constexpr int kLargestSide = 16384;
 /// The state of a flight: what the keys, the panel and the clock change from frame to frame.
 class Flight {
 public:
-    Flight(const Options& options, const scene::Scene& scene, Window& window,
+    Flight(const Options& options, const scene::Scene& scene, const scene::Pose& start, Window& window,
            render::Renderer& renderer)
         : options_(options), window_(window), renderer_(renderer), panel_(window.handle()),
-          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(renderer.above_datum(find_camera(scene, options.camera))),
+          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(renderer.above_datum(start)),
           gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
 
     /// Draws until the window is closed, or for options.exit_after frames.
@@ -172,17 +173,18 @@ private:
 
 void run_view(const Options& options) {
     const scene::Scene scene = load_scene(options);
-    static_cast<void>(
-        find_camera(scene, options.camera)); // a wrong name is told before the window opens
+    scene::Pose start = find_camera(scene, options.camera); // a wrong name is told before the window opens
     gl::DebugMessages messages;
     Window window("Sward", options.frame.width, options.frame.height, options.debug_gl);
     gl::require_gl45();
     if (options.debug_gl)
         gl::watch_debug_messages(&messages);
-    render::Renderer renderer(load_world(scene));
+    render::World world = load_world(scene);
+    scene::settle_place(start, place_on_earth(world.elevation), "--camera");
+    render::Renderer renderer(std::move(world));
     window.show();
     {
-        Flight flight(options, scene, window, renderer);
+        Flight flight(options, scene, start, window, renderer);
         flight.run();
     }
     if (messages.count > 0)

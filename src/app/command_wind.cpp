@@ -117,7 +117,8 @@ void run_wind(const Options& given) {
     check_outputs(options);
     if (!is_linear(options.output))
         throw option_error("--output", options.output.string(), "a name that ends in .exr");
-    const scene::Scene scene = load_scene(options);
+    scene::Scene scene = load_scene(options);
+    settle_paths(scene);
     check_not_inputs(options, scene);
     const wind::Meshes meshes = load_meshes(scene);
 
@@ -135,6 +136,7 @@ void run_wind(const Options& given) {
         const double time_s = options.every_s ? frame * *options.every_s : options.time_s;
         wind.advance(time_s, options.at);
         const wind::Window& window = *wind.window();
+        make_parent(names.name(frame));
         write_linear(names.name(frame), image_of(Cells(window.fluid()), static_cast<double>(window.tag().latest) * window.tag().step_s));
         if (progress)
             progress->advance();

@@ -20,7 +20,10 @@ void run_bench(const Options& options);
 /// The viewer. Throws Error; kNoGpu where there is no display. The core build has none and says so.
 void run_view(const Options& options);
 /// Renderer, limits, versions and paths on stdout; a machine without a GPU is a fact to print, not
-/// an error.
-void run_info();
+/// an error. With a scene: what its terrain is, and where. Throws Error.
+void run_info(const Options& options);
+
+/// Throws Error(kIo) unless everything written to stdout has arrived.
+void flush_results();
 
 } // namespace sward::app

@@ -23,8 +23,10 @@ namespace sward::app {
 /// Elevation of a scene. Full: assets::load_elevation, and raw posts; core: .hgt and .raw. Throws
 /// Error.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
-/// Density mask. The core build reads none: throws Error(kBadInput).
-[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec);
+/// Density mask, laid over the terrain. The core build reads none: throws Error(kBadInput).
+[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground);
+/// x, z of a latitude and longitude in the terrain's frame; null where the terrain has no place on Earth.
+[[nodiscard]] scene::PlaceOnEarth place_on_earth(const scene::Heightfield& ground);
 
 /// A mesh that a scene names. The core build reads none: throws Error(kBadInput).
 [[nodiscard]] scene::Mesh load_mesh(const std::filesystem::path& path);

@@ -16,8 +16,14 @@ scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
     return assets::load_elevation(spec);
 }
 
-scene::DensityMask load_mask(const scene::TerrainSpec& spec) {
-    return assets::load_mask(spec.mask, spec.classes);
+scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
+    return assets::load_mask(spec, ground);
+}
+
+scene::PlaceOnEarth place_on_earth(const scene::Heightfield& ground) {
+    if (!ground.origin)
+        return {};
+    return [frame = *ground.origin](double latitude, double longitude) { return assets::local_place(frame, latitude, longitude); };
 }
 
 scene::Mesh load_mesh(const std::filesystem::path& path) {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
 #include <string>
+#include <system_error>
 
 #include "app/commands.h"
 #include "app/options.h"
@@ -20,6 +22,7 @@ void run(int argc, char** argv) {
     switch (options.command) {
     case sward::app::Command::kHelp:
         std::fputs(options.help.c_str(), stdout);
+        sward::app::flush_results();
         break;
     case sward::app::Command::kView:
         sward::app::run_view(options);
@@ -34,7 +37,7 @@ void run(int argc, char** argv) {
         sward::app::run_bench(options);
         break;
     case sward::app::Command::kInfo:
-        sward::app::run_info();
+        sward::app::run_info(options);
         break;
     }
 }
@@ -45,6 +48,11 @@ int fail(ExitCode code, const std::string& message) {
 }
 
 } // namespace
+
+void sward::app::flush_results() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw base::Error(base::ExitCode::kIo, "stdout: cannot write: found a full or closed stream, expected room for the report");
+}
 
 int main(int argc, char** argv) {
     try {
@@ -57,6 +65,12 @@ int main(int argc, char** argv) {
         return fail(error.code(), error.what());
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::kFailure, "memory: found none left, expected room for the scene");
+    } catch (const std::filesystem::filesystem_error& error) { // a working directory that is gone, say
+        const std::string name = error.path1().empty() ? "working directory" : sward::base::printable(error.path1().native(), 300);
+        return fail(ExitCode::kIo, name + ": cannot use: found " +
+                                       error.code().message() + ", expected a file or directory that can be reached");
+    } catch (const std::system_error& error) { // no thread, no handle
+        return fail(ExitCode::kFailure, "system: found " + error.code().message() + ", expected room for a thread");
     } catch (const std::exception& error) {
         return fail(ExitCode::kFailure,
                     "inside sward: " + sward::base::printable(error.what(), 300));

@@ -75,7 +75,7 @@ void declare_frame_options(CLI::App& app, Options* o) {
     declare(
         app, "--camera", "NAME|x,y,z,yaw,pitch",
         "a camera of the scene, or a pose: metres (y above the ground, or above the datum after "
-        "\"abs:\") and degrees",
+        "\"abs:\") and degrees; or geo:LAT,LON,HEIGHT,YAW,PITCH",
         [=](const std::string& text) {
             if (text.empty())
                 throw option_error("--camera", text, "a camera of the scene, or a pose");
@@ -266,7 +266,8 @@ Options parse_options(int argc, const char* const* argv) {
         app.add_subcommand("render", "a picture or a sequence, without a window");
     CLI::App* const bench = app.add_subcommand("bench", "figures of this machine, held to their limits");
     CLI::App* const wind = app.add_subcommand("wind", "the wind around a place, as pictures of numbers");
-    CLI::App* const info = app.add_subcommand("info", "renderer, limits, versions, paths");
+    CLI::App* const info = app.add_subcommand("info", "renderer, limits, versions, paths; or what a scene's terrain is");
+    declare_path(*info, "SCENE", "PATH", "scene file, or directory with scene.toml: its extent, CRS, origin, heights and classes", &o.scene);
     declare_view(*view, &o);
     declare_render(*render, &o);
     declare_wind(*wind, &o);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -44,7 +46,8 @@ OutputNames::OutputNames(const Options& options) : before_(options.output.string
     if (!options.frames)
         return;
     const std::string whole = before_;
-    const std::size_t at = whole.find('%');
+    const std::size_t slash = whole.rfind('/'); // folders may be called what they like
+    const std::size_t at = whole.find('%', slash == std::string::npos ? 0 : slash);
     std::size_t end = at == std::string::npos ? at : at + 1;
     while (end < whole.size() && std::isdigit(static_cast<unsigned char>(whole[end])) != 0)
         ++end;
@@ -74,12 +77,30 @@ void check_outputs(const Options& options) {
                            "a name that ends in .exr, as --aov is given");
     const OutputNames names(options);
     const fs::path first = names.name(options.frames ? options.frames->first : 0);
-    base::require_writable(first);
+    require_place(first);
     if (options.stats.empty())
         return;
     if (same_file(options.stats, first))
         throw option_error("--stats", options.stats.string(), "another file than --output");
-    base::require_writable(options.stats);
+    require_place(options.stats);
+}
+
+void require_place(const fs::path& path) {
+    std::error_code error;
+    fs::path parent = fs::absolute(path).lexically_normal().parent_path();
+    if (path.empty() || !path.has_filename() || fs::exists(fs::symlink_status(parent, error)) || error.value() == ENAMETOOLONG)
+        return base::require_writable(path);
+    while (!parent.empty() && parent != parent.root_path() && !fs::exists(fs::symlink_status(parent, error)))
+        parent = parent.parent_path();
+    base::require_writable(parent / path.filename());
+}
+
+void make_parent(const fs::path& path) {
+    const fs::path parent = fs::absolute(path).lexically_normal().parent_path();
+    std::error_code error;
+    fs::create_directories(parent, error);
+    if (error && !fs::is_directory(parent))
+        throw base::input_error(base::ExitCode::kIo, path, 0, "cannot make its directory", error.message(), "a directory that can be made");
 }
 
 void check_not_inputs(const Options& options, const scene::Scene& scene) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/set_cache.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <optional>
@@ -57,6 +58,19 @@ bool is_outdated(const fs::path& set) {
     const auto baked = fs::last_write_time(set / "set.json", a);
     const auto texgen = fs::last_write_time(texgen_program(), b);
     return !a && !b && baked < texgen;
+}
+
+/// Whether a preset sets anything: a line with a key.
+bool sets_nothing(const std::string& text) {
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size());
+        const std::string line = text.substr(at, end - at);
+        const std::size_t equals = line.find('=');
+        if (equals != std::string::npos && equals < line.find('#'))
+            return false;
+        at = end + 1;
+    }
+    return true;
 }
 
 std::string reason_of(const base::Error& error) {
@@ -117,6 +131,8 @@ grass::GrassSet load_grass(const scene::Scene& scene) {
     if (auto cached = read_cached(set, true)) // another process may have baked it while we waited
         return std::move(*cached);
     std::error_code ignored;
+    if (sets_nothing(text))
+        base::log_warning(fmt::format("{}: sets nothing; the default meadow is baked", base::printable(place.path.native(), 1024)));
     fs::remove_all(set, ignored); // ours alone, and nothing in it can be trusted
     bake(place.path, set);
     return grass::read_grass_set(set);

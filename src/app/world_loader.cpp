@@ -22,6 +22,19 @@ scene::Scene load_scene(const Options& options) {
     return scene;
 }
 
+void settle_paths(scene::Scene& scene) {
+    scene::PlaceOnEarth on_earth; // made when it is first asked for
+    const scene::TerrainSpec& terrain = scene.terrain;
+    scene::settle_places(scene, [&](double latitude, double longitude) {
+        if (!on_earth && terrain.surface.empty())
+            on_earth = place_on_earth(load_elevation(terrain));
+        if (!on_earth)
+            throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "geo", "a latitude and longitude",
+                                    "x and z: the terrain has no place on Earth");
+        return on_earth(latitude, longitude);
+    });
+}
+
 std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     std::map<fs::path, scene::Mesh> meshes;
     const auto add = [&](const fs::path& mesh) {
@@ -43,11 +56,13 @@ render::World load_world(const scene::Scene& scene) {
     world.spheres = load_spheres(scene, world.meshes);
     if (!scene.terrain.surface.empty()) {
         world.surface = load_mesh(scene.terrain.surface); // its grass is placed, not baked
+        scene::settle_places(world.scene, {});
         return world;
     }
     world.elevation = load_elevation(scene.terrain);
+    scene::settle_places(world.scene, place_on_earth(world.elevation));
     if (!scene.terrain.mask.empty())
-        world.mask = load_mask(scene.terrain);
+        world.mask = load_mask(scene.terrain, world.elevation);
     world.grass = load_grass(scene);
     return world;
 }

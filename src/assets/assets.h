@@ -20,10 +20,15 @@ namespace sward::assets {
 /// NaN, all nodata, fewer than 2 x 2 posts; kOverLimit over docs/limits. The message names the file.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 
-/// Density mask: PNG, TIFF, EXR or JPEG; first channel, 0..1. With `classes` (TerrainSpec::classes) the channel holds
-/// integer landcover classes instead, and a class that is not listed has density 0. Throws like load_elevation.
-[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path,
-                                           const std::map<int, double>& classes = {});
+/// Density mask of a scene: PNG, TIFF, EXR or JPEG; one channel, 0..1, or with TerrainSpec::classes integer landcover classes, of
+/// which one that is not listed has density 0. A file with a place on Earth is laid where it belongs in the frame of `ground`,
+/// area by area; any other is spread over all of it. Density is 0 where the file has no value. Throws like load_elevation.
+[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground);
+/// The same without a terrain, spread.
+[[nodiscard]] scene::DensityMask load_mask(const std::filesystem::path& path, const std::map<int, double>& classes = {});
+
+/// x, z in a frame of latitude and longitude (degrees, WGS 84). Throws Error(kBadInput) where they have no place in it.
+[[nodiscard]] glm::dvec2 local_place(const scene::Georeference& frame, double latitude_deg, double longitude_deg);
 
 /// Triangles of a .glb or .gltf, of every node of its default scene, placed by its transforms; pictures, materials, skins and
 /// morphs are left alone. External buffers are read from the glTF's directory and below it only. Throws Error: kIo missing or

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -22,15 +23,17 @@ base::Error bad(const std::filesystem::path& path, std::string_view what, std::s
 }
 
 /// Largest value of the type, 0 for floating point; less than 8 bits are told beside the type.
-double full_scale_of(GDALRasterBandH band, const std::filesystem::path& path) {
+double full_scale_of(GDALRasterBandH band, const std::filesystem::path& path, bool classes) {
     const GDALDataType type = GDALGetRasterDataType(band);
+    if (classes && !GDALDataTypeIsComplex(type) && type != GDT_Byte && type != GDT_UInt16)
+        return 0; // landcover often comes as signed or 32 bits
     if (type == GDT_Float32 || type == GDT_Float64)
         return 0;
     if (type == GDT_UInt16)
         return 65535;
     if (type != GDT_Byte)
         throw bad(path, "type of the pixels", GDALGetDataTypeName(type),
-                  "8 or 16 bits unsigned, or floating point");
+                  "8 or 16 bits unsigned, or floating point; for classes [terrain.classes]");
     const char* bits = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE");
     const int count = bits ? std::atoi(bits) : 8;
     return count >= 1 && count < 8 ? double((1 << count) - 1) : 255;
@@ -42,32 +45,37 @@ void look_up(GDALColorTableH table, std::vector<float>& values) {
     for (int i = 0; i < std::min(256, GDALGetColorEntryCount(table)); ++i)
         red[static_cast<std::size_t>(i)] = GDALGetColorEntry(table, i)->c1;
     for (float& value : values)
-        value = red[static_cast<std::size_t>(std::clamp(value, 0.0f, 255.0f))];
+        if (!std::isnan(value))
+            value = red[static_cast<std::size_t>(std::clamp(value, 0.0f, 255.0f))];
 }
 
 } // namespace
 
-Channel read_gdal_channel(const std::filesystem::path& path, int least_side, Palette palette) {
+Channel read_gdal_channel(const std::filesystem::path& path, const ChannelRequest& request) {
     GdalScope gdal;
     const Dataset dataset = gdal.open(path, kDrivers.data());
-    GDALRasterBandH band = dataset && GDALGetRasterCount(dataset.get()) > 0
-                               ? GDALGetRasterBand(dataset.get(), 1)
-                               : nullptr;
-    if (!band)
+    if (!dataset || GDALGetRasterCount(dataset.get()) < 1)
         throw bad(path, "cannot decode", gdal.error("broken data"), "a whole picture");
     Channel channel;
     channel.width = GDALGetRasterXSize(dataset.get());
     channel.height = GDALGetRasterYSize(dataset.get());
-    channel.channels = GDALGetRasterCount(dataset.get());
-    check_size(path, channel.width, channel.height, channel.channels, sizeof(float),
-               std::filesystem::file_size(path), least_side);
-    channel.full_scale = full_scale_of(band, path);
+    GDALRasterBandH band = choose_band(dataset.get(), path, std::max(request.band, 1), "mask");
+    check_size(path, channel.width, channel.height, 1, sizeof(float), std::filesystem::file_size(path), request.least_side);
+    const bool classes = request.palette == Palette::kIndices;
+    channel.full_scale = full_scale_of(band, path, classes);
     gdal.read(band, path, channel.values);
-    if (GDALColorTableH table = GDALGetRasterColorTable(band);
-        table && palette == Palette::kColours) {
+    const std::vector<std::uint8_t> valid = gdal.read_valid(band, path, channel.values);
+    for (std::size_t i = 0; i < valid.size(); ++i)
+        if (valid[i] == 0)
+            channel.values[i] = std::numeric_limits<float>::quiet_NaN();
+    if (GDALColorTableH table = GDALGetRasterColorTable(band); table && !classes) {
         look_up(table, channel.values);
         channel.full_scale = 255;
     }
+    std::array<double, 6> affine{};
+    channel.turned_loose = !GDALGetSpatialRef(dataset.get()) && GDALGetGeoTransform(dataset.get(), affine.data()) == CE_None;
+    if (request.frame)
+        channel.placement = place_raster(dataset.get(), path, request.frame);
     return channel;
 }
 

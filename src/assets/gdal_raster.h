@@ -9,20 +9,10 @@
 
 #include <glm/glm.hpp>
 
+#include "assets/placement.h"
 #include "scene/heightfield.h"
 
 namespace sward::assets {
-
-/// Where a raster lies: between its posts (column, row; post (0, 0) is the first) and metres east
-/// and north of its middle, on an azimuthal equidistant projection of the raster's own datum.
-/// Points that have no image become NaN.
-class Placement {
-public:
-    virtual ~Placement() = default;
-    virtual void posts_to_metres(std::vector<glm::dvec2>& points) const = 0;
-    virtual void metres_to_posts(std::vector<glm::dvec2>& points) const = 0;
-    [[nodiscard]] virtual scene::Georeference middle() const = 0;
-};
 
 struct Raster {
     int width = 0;
@@ -31,12 +21,13 @@ struct Raster {
         values; ///< NaN where the file has no value; scale, offset and unit of the file are applied
     double full_scale = 0;                ///< of an unsigned integer type (255, 65535), else 0
     bool has_unit = false;                ///< the file says what its values are: a unit, or a scale
-    std::unique_ptr<Placement> placement; ///< null where the file carries no CRS
+    std::unique_ptr<Placement> placement; ///< null where the file has no place on Earth
+    std::optional<glm::dvec2> bare_spacing_m; ///< of a file in the coordinates of a building site
 };
 
-/// The first band of a local elevation file, through the few GDAL drivers that follow no reference
+/// One band (from 1) of a local elevation file, through the few GDAL drivers that follow no reference
 /// to another place. Throws base::Error: kIo, kBadInput, kOverLimit.
-[[nodiscard]] Raster read_gdal_raster(const std::filesystem::path& path);
+[[nodiscard]] Raster read_gdal_raster(const std::filesystem::path& path, int band);
 
 /// Versions of GDAL and PROJ.
 [[nodiscard]] std::string gdal_versions();

@@ -2,6 +2,8 @@
 #include "assets/gdal_scope.h"
 
 #include <algorithm>
+#include <array>
+#include <string>
 #include <utility>
 
 #include <cpl_conv.h>
@@ -10,8 +12,10 @@
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
 
+#include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 
 namespace sward::assets {
 namespace {
@@ -88,6 +92,53 @@ void GdalScope::read(GDALRasterBandH band, const std::filesystem::path& path,
                      0, 0) != CE_None)
         throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode",
                                 error("broken data"), "a whole picture");
+}
+
+std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band, const std::filesystem::path& path,
+                                                const std::vector<float>& values) {
+    std::vector<std::uint8_t> valid;
+    if (GDALGetMaskFlags(band) != GMF_ALL_VALID) {
+        const int width = GDALGetRasterBandXSize(band), height = GDALGetRasterBandYSize(band);
+        valid.resize(values.size());
+        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, width, height, valid.data(), width, height, GDT_Byte, 0, 0) != CE_None)
+            throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode the mask", error("broken data"),
+                                    "a whole mask");
+    }
+    // GDAL heeds an alpha of 8 or 16 bits unsigned only.
+    GDALDatasetH dataset = GDALGetBandDataset(band);
+    for (int n = 1; valid.empty() && dataset && n <= GDALGetRasterCount(dataset); ++n)
+        if (GDALRasterBandH alpha = GDALGetRasterBand(dataset, n); alpha != band && GDALGetRasterColorInterpretation(alpha) == GCI_AlphaBand) {
+            std::vector<float> opacity;
+            read(alpha, path, opacity);
+            valid.resize(values.size());
+            std::transform(opacity.begin(), opacity.end(), valid.begin(), [](float a) { return static_cast<std::uint8_t>(a > 0 ? 255 : 0); });
+        }
+    // A mask inside the file hides the number from GDAL; it holds all the same.
+    int has_nodata = 0;
+    const auto nodata = static_cast<float>(GDALGetRasterNoDataValue(band, &has_nodata));
+    if (has_nodata) {
+        valid.resize(values.size(), 255);
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (values[i] == nodata)
+                valid[i] = 0;
+    }
+    return valid;
+}
+
+GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number, const char* what) {
+    const int bands = GDALGetRasterCount(dataset);
+    const auto is_alpha = [&](int n) { return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, n)) == GCI_AlphaBand; };
+    std::array<double, 6> affine{};
+    const int most = GDALGetGeoTransform(dataset, affine.data()) == CE_None ? kMostBands : kMostChannels;
+    if (bands > most)
+        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "channels", std::to_string(bands),
+                                fmt::format("at most {}", most));
+    if (number > bands || bands < 1)
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "bands", std::to_string(bands),
+                                fmt::format("a band {}", std::max(number, 1)));
+    if (number == 0 && bands > 1 && !(bands == 2 && is_alpha(2)))
+        base::log_warning(fmt::format("{}: {} bands; the first is the {}", base::printable(path.native(), 1024), bands, what));
+    return GDALGetRasterBand(dataset, std::max(number, 1));
 }
 
 } // namespace sward::assets

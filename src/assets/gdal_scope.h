@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -30,11 +31,19 @@ public:
     /// The whole band as float. Its size must have been checked; throws Error where a block is too
     /// large or broken.
     void read(GDALRasterBandH band, const std::filesystem::path& path, std::vector<float>& values);
+    /// 0 where a pixel of the band has no value: its nodata number, a mask inside the file, or an alpha of 0. Empty where every
+    /// pixel has one. `values` as `read` gave them.
+    [[nodiscard]] std::vector<std::uint8_t> read_valid(GDALRasterBandH band, const std::filesystem::path& path,
+                                                       const std::vector<float>& values);
     /// The first error since the last call, or `otherwise`.
     [[nodiscard]] std::string error(const char* otherwise);
 
 private:
     std::optional<std::string> error_;
 };
+
+/// Band `number` of a raster, from 1; 0: the first, with a warning where others beside it are no alpha (`what` it is then). Throws
+/// kBadInput where there is none, kOverLimit for a picture of more than four.
+[[nodiscard]] GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number, const char* what);
 
 } // namespace sward::assets

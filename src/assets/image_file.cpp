@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -44,6 +47,27 @@ void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
         throw base::input_error(ExitCode::kOverLimit, path, 0, "tile",
                                 fmt::format("{} x {}", spec.tile_width, spec.tile_height),
                                 "no more than the picture");
+}
+
+/// The picture is its display window; data that lies outside is cut off, and where there is none the picture has no value.
+Channel in_display_window(const std::filesystem::path& path, const OIIO::ImageSpec& spec, std::uint64_t file_bytes, int least_side,
+                          std::vector<float>& data) {
+    Channel channel;
+    const bool whole = spec.full_width < 1 || spec.full_height < 1;
+    channel.width = whole ? spec.width : spec.full_width;
+    channel.height = whole ? spec.height : spec.full_height;
+    check_size(path, channel.width, channel.height, 1, sizeof(float), file_bytes, least_side);
+    const std::int64_t dx = whole ? 0 : std::int64_t{spec.x} - spec.full_x, dy = whole ? 0 : std::int64_t{spec.y} - spec.full_y;
+    if (channel.width == spec.width && channel.height == spec.height && dx == 0 && dy == 0) {
+        channel.values = std::move(data);
+        return channel;
+    }
+    channel.values.assign(std::size_t(channel.width) * std::size_t(channel.height), std::numeric_limits<float>::quiet_NaN());
+    for (std::int64_t y = std::max<std::int64_t>(0, dy); y < std::min<std::int64_t>(channel.height, dy + spec.height); ++y)
+        for (std::int64_t x = std::max<std::int64_t>(0, dx); x < std::min<std::int64_t>(channel.width, dx + spec.width); ++x)
+            channel.values[static_cast<std::size_t>(y * channel.width + x)] =
+                data[static_cast<std::size_t>((y - dy) * spec.width + (x - dx))];
+    return channel;
 }
 
 } // namespace
@@ -86,7 +110,7 @@ Format format_of(std::span<const std::byte> head) {
     return Format::kUnknown;
 }
 
-Channel read_exr_channel(const std::filesystem::path& path, int least_side) {
+Channel read_exr_channel(const std::filesystem::path& path, const ChannelRequest& request) {
     // From memory: the library sees no path, so no other file and no FIFO.
     const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
     OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
@@ -103,23 +127,48 @@ Channel read_exr_channel(const std::filesystem::path& path, int least_side) {
     };
     if (!input->open("memory.exr", spec, config))
         throw decode_error();
-    check_spec(path, spec, bytes.size(), least_side);
-
-    Channel channel;
-    channel.width = spec.width;
-    channel.height = spec.height;
-    channel.channels = spec.nchannels;
-    channel.values.resize(std::size_t(spec.width) * spec.height);
-    if (!input->read_image(0, 0, 0, 1, OIIO::TypeDesc::FLOAT, channel.values.data()))
+    check_spec(path, spec, bytes.size(), 1);
+    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
+    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
+    const int band = std::max(request.band, 1) - 1;
+    if (band >= spec.nchannels)
+        throw bad(path, "channels", std::to_string(spec.nchannels), fmt::format("a channel {}", band + 1));
+    if (request.band == 0 && spec.nchannels > 1 && spec.alpha_channel != 1)
+        base::log_warning(fmt::format("{}: {} channels; the first is used", path.string(), spec.nchannels));
+    std::vector<float> data(std::size_t(spec.width) * std::size_t(spec.height));
+    if (!input->read_image(0, 0, band, band + 1, OIIO::TypeDesc::FLOAT, data.data()))
         throw decode_error();
     if (input->seek_subimage(1, 0))
         base::log_warning(path.string() + ": holds several pictures; the first is used");
     [[maybe_unused]] const std::string no_more =
         input->geterror(); // what is never asked for is printed
-    return channel;
+    return in_display_window(path, spec, bytes.size(), request.least_side, data);
 }
 
-Channel read_first_channel(const std::filesystem::path& path, int least_side, Palette palette) {
+void check_rows_per_strip(const std::filesystem::path& path, std::optional<int> rows) {
+    if (rows && (*rows < 1 || *rows > kMostSide))
+        throw bad(path, "attribute tiff:RowsPerStrip", std::to_string(*rows), fmt::format("1 to {}, or none", kMostSide));
+}
+
+void check_png_chunks(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::uint64_t size = std::filesystem::file_size(path);
+    std::uint64_t at = 8; // behind the magic bytes
+    std::array<unsigned char, 8> head{};
+    while (at + 12 <= size && file.seekg(static_cast<std::streamoff>(at)) &&
+           file.read(reinterpret_cast<char*>(head.data()), head.size())) {
+        const std::uint64_t length = std::uint64_t{head[0]} << 24 | std::uint64_t{head[1]} << 16 | std::uint64_t{head[2]} << 8 | head[3];
+        const std::string_view kind(reinterpret_cast<const char*>(head.data()) + 4, 4);
+        if (length > size - at - 12)
+            throw bad(path, fmt::format("cannot decode: chunk {}", base::printable(kind)), fmt::format("{} bytes", length),
+                      fmt::format("at most {}, what is left of the file", size - at - 12));
+        if (kind == "IEND")
+            return;
+        at += length + 12;
+    }
+}
+
+Channel read_channel(const std::filesystem::path& path, const ChannelRequest& request) {
     const Format format = format_of(base::read_head(path, 16)); // refuses what is no regular file
     if (format == Format::kUnknown)
         throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR or JPEG");
@@ -127,10 +176,11 @@ Channel read_first_channel(const std::filesystem::path& path, int least_side, Pa
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
                                 fmt::format("{} bytes", std::filesystem::file_size(path)),
                                 fmt::format("at most {}", kMostFileBytes));
-    Channel channel = format == Format::kExr ? read_exr_channel(path, least_side)
-                                             : read_gdal_channel(path, least_side, palette);
+    if (format == Format::kPng)
+        check_png_chunks(path);
+    Channel channel = format == Format::kExr ? read_exr_channel(path, request) : read_gdal_channel(path, request);
     for (std::size_t i = 0; i < channel.values.size(); ++i)
-        if (!std::isfinite(channel.values[i]))
+        if (std::isinf(channel.values[i]))
             throw bad(
                 path,
                 fmt::format("pixel at column {}, row {}", i % channel.width, i / channel.width),

@@ -48,6 +48,8 @@ LayerImage read_exr(const std::filesystem::path& path) {
         throw base::input_error(ExitCode::kOverLimit, path, 0, "tile",
                                 fmt::format("{} x {}", spec.tile_width, spec.tile_height),
                                 "no more than the picture");
+    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
+    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
     LayerImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -142,6 +144,8 @@ LayerImage read_layer_image(const std::filesystem::path& path) {
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
                                 fmt::format("{} bytes", std::filesystem::file_size(path)),
                                 fmt::format("at most {}", kMostFileBytes));
+    if (format == Format::kPng)
+        check_png_chunks(path);
     LayerImage image = format == Format::kExr ? read_exr(path) : read_gdal(path, format);
     const auto channels = static_cast<std::size_t>(image.channels), width = static_cast<std::size_t>(image.width);
     for (std::size_t i = 0; i < image.values.size(); ++i)

@@ -11,6 +11,7 @@ namespace sward::assets {
 inline constexpr std::int64_t kMostSide = 16384;
 inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 inline constexpr int kMostChannels = 4;
+inline constexpr int kMostBands = 256; ///< of a raster with a geotransform, of which one is read
 inline constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 31;
 /// Deflate cannot do better than 1032 to 1: more is a file that lies about its size. Small pictures
 /// may be that flat.

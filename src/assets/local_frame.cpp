@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,12 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kWidest_m = 1e6; // beyond it a flat frame has nothing to do with the Earth
+constexpr double kWidest_m = 1.2e6; // beyond it a flat frame has nothing to do with the Earth
 constexpr int kOutlinePoints =
     2048; // a side; the rest of the outline is as good as straight between them
-constexpr int kCell =
-    16; // posts between exact transformations; linear between them errs by under 1e-4 posts
-
 constexpr double kRim =
     0.02; // posts past the raster's last one that are still that one: a projection's rounding
 
@@ -29,15 +28,8 @@ base::Error bad(const fs::path& path, std::string_view what, const std::string& 
     return base::input_error(code, path, 0, what, found, expected);
 }
 
-std::vector<glm::dvec2> outline(const Raster& raster) {
-    const glm::dvec2 last(raster.width - 1, raster.height - 1);
-    std::vector<glm::dvec2> points;
-    for (int i = 0; i <= kOutlinePoints; ++i) {
-        const glm::dvec2 p = last * (double(i) / kOutlinePoints);
-        for (const glm::dvec2 q : {glm::dvec2(p.x, 0), glm::dvec2(p.x, last.y), glm::dvec2(0, p.y),
-                                   glm::dvec2(last.x, p.y)})
-            points.push_back(q);
-    }
+std::vector<glm::dvec2> outline_metres(const Raster& raster) {
+    std::vector<glm::dvec2> points = outline({0, 0}, {raster.width - 1, raster.height - 1}, kOutlinePoints);
     raster.placement->posts_to_metres(points);
     return points;
 }
@@ -105,69 +97,50 @@ float bicubic(const Raster& raster, glm::dvec2 post) {
     return static_cast<float>(sum);
 }
 
-/// Source posts under each kCell-th post of the grid, exact; one more row and column past the end.
-struct Nodes {
-    int columns = 0;
-    std::vector<glm::dvec2> posts;
-
-    [[nodiscard]] glm::dvec2 between(int i, int j) const {
-        const int ci = i / kCell, cj = j / kCell;
-        const double u = double(i % kCell) / kCell, v = double(j % kCell) / kCell;
-        const glm::dvec2* p = &posts[static_cast<std::size_t>(cj) * columns + ci];
-        return glm::mix(glm::mix(p[0], p[1], u), glm::mix(p[columns], p[columns + 1], u), v);
+/// Posts along one side, and their spacing: the raster's own where there are many. Odd stays odd: then the new posts stand on
+/// the old ones near the middle, and peaks keep their height. A raster a few posts wide is spread over all that it covers.
+std::pair<int, double> divide(double extent, double spacing, int source_posts) {
+    constexpr double kFew = 8;
+    double posts = std::floor(extent / spacing + kRim) + 1;
+    if (posts < kFew || source_posts < kFew) {
+        posts = std::clamp(std::round(extent / spacing) + 1, 2.0, double(std::max(source_posts, 2)));
+        return {static_cast<int>(posts), extent / (posts - 1)};
     }
-};
-
-Nodes make_nodes(const Raster& raster, const scene::Heightfield& field) {
-    Nodes nodes;
-    nodes.columns = (field.width - 1) / kCell + 2;
-    const int rows = (field.height - 1) / kCell + 2;
-    for (int j = 0; j < rows; ++j)
-        for (int i = 0; i < nodes.columns; ++i)
-            nodes.posts.emplace_back((i * kCell - (field.width - 1) / 2.0) * field.spacing_m.x,
-                                     -(j * kCell - (field.height - 1) / 2.0) *
-                                         field.spacing_m.y); // north is up
-    raster.placement->metres_to_posts(nodes.posts);
-    return nodes;
+    posts -= std::fmod(std::abs(source_posts - posts), 2.0);
+    return {static_cast<int>(std::min(posts, double(kMostSide) + 1)), spacing};
 }
 
 } // namespace
 
 scene::Heightfield to_local_grid(const Raster& raster, const fs::path& path) {
-    const std::vector<glm::dvec2> points = outline(raster);
+    const std::vector<glm::dvec2> points = outline_metres(raster);
     if (std::any_of(points.begin(), points.end(),
                     [](glm::dvec2 p) { return !std::isfinite(p.x + p.y); }))
         throw bad(path, "place on Earth", "an outline that leaves the Earth",
                   "a raster that lies on it");
     const glm::dvec2 half = inscribed(points);
     scene::Heightfield field;
-    field.origin = raster.placement->middle();
-    field.spacing_m = spacing(raster);
-    if (!(field.spacing_m.x >= 1e-3 && field.spacing_m.y >= 1e-3))
-        throw bad(path, "spacing of the posts",
-                  fmt::format("{} x {} m", field.spacing_m.x, field.spacing_m.y),
+    field.origin = raster.placement->frame();
+    const glm::dvec2 own = spacing(raster);
+    if (!(own.x >= 1e-3 && own.y >= 1e-3))
+        throw bad(path, "spacing of the posts", fmt::format("{} x {} m", own.x, own.y),
                   "at least 0.001 m");
     if (!(2 * half.x <= kWidest_m && 2 * half.y <= kWidest_m))
         throw bad(path, "extent", fmt::format("{:.0f} x {:.0f} km", half.x / 500, half.y / 500),
                   fmt::format("at most {:.0f} km a side for a flat frame", kWidest_m / 1000),
                   base::ExitCode::kOverLimit);
-    glm::dvec2 posts = glm::floor(2.0 * half / field.spacing_m + kRim) + 1.0;
-    // Odd stays odd: then the new posts stand on the old ones near the middle, and peaks keep their
-    // height.
-    posts -= glm::mod(glm::dvec2(raster.width, raster.height) - posts, 2.0);
-    if (!(posts.x >= 2 && posts.y >= 2))
+    std::tie(field.width, field.spacing_m.x) = divide(2 * half.x, own.x, raster.width);
+    std::tie(field.height, field.spacing_m.y) = divide(2 * half.y, own.y, raster.height);
+    check_size(path, field.width, field.height, 1, sizeof(float), std::numeric_limits<std::uint64_t>::max(), 2);
+    if (!(field.spacing_m.x > 0 && field.spacing_m.y > 0))
         throw bad(path, "size", fmt::format("{} x {} posts", raster.width, raster.height),
-                  "enough for an upright rectangle of 2 x 2");
-    check_size(path, static_cast<std::int64_t>(posts.x), static_cast<std::int64_t>(posts.y), 1,
-               sizeof(float), std::numeric_limits<std::uint64_t>::max(), 2);
-    field.width = static_cast<int>(posts.x);
-    field.height = static_cast<int>(posts.y);
+                  "posts that enclose an upright rectangle");
 
-    const Nodes nodes = make_nodes(raster, field);
+    const PostGrid posts(*raster.placement, -0.5 * field.extent_m(), field.spacing_m, {field.width, field.height});
     field.metres.reserve(static_cast<std::size_t>(field.width) * field.height);
     for (int j = 0; j < field.height; ++j)
         for (int i = 0; i < field.width; ++i)
-            field.metres.push_back(bicubic(raster, nodes.between(i, j)));
+            field.metres.push_back(bicubic(raster, posts.at(i, j)));
     scene::fill_voids(field.width, field.height,
                       field.metres); // places that the projection could not reach
     if (std::isnan(field.metres.front()))

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "assets/assets.h"
+#include "assets/gdal_scope.h"
 #include "assets/image_file.h"
+#include "assets/mask_warp.h"
 #include "base/error.h"
+#include "base/log.h"
 
 namespace sward::assets {
 namespace {
@@ -23,28 +27,53 @@ base::Error bad_pixel(const std::filesystem::path& path, const Channel& channel,
         fmt::format("{}", channel.values[pixel]), expected);
 }
 
-} // namespace
-
-scene::DensityMask load_mask(const std::filesystem::path& path,
-                             const std::map<int, double>& classes) {
-    const bool by_class = !classes.empty();
-    Channel channel = read_first_channel(path, 1, by_class ? Palette::kIndices : Palette::kColours);
-    const float scale =
-        by_class || channel.full_scale == 0 ? 1.0f : static_cast<float>(1 / channel.full_scale);
+/// Values of the file to what the mask is made from: densities 0..1, or classes; NaN where there is no value.
+void check_values(const std::filesystem::path& path, bool by_class, Channel& channel) {
+    const float scale = by_class || channel.full_scale == 0 ? 1.0f : static_cast<float>(1 / channel.full_scale);
     for (std::size_t i = 0; i < channel.values.size(); ++i) {
-        const float value = channel.values[i] * scale;
+        float& pixel = channel.values[i];
+        const float value = pixel * scale;
+        if (std::isnan(value))
+            continue;
         if (by_class) {
-            if (value != std::round(value) || value < 0 || value > 65535)
+            if (value != std::round(value) || value < 0 || value >= kClasses)
                 throw bad_pixel(path, channel, i, "a landcover class from 0 to 65535");
-            const auto it = classes.find(static_cast<int>(value));
-            channel.values[i] = it == classes.end() ? 0.0f : static_cast<float>(it->second);
         } else if (value < -kSlack || value > 1 + kSlack) {
             throw bad_pixel(path, channel, i, "a density from 0 to 1");
         } else {
-            channel.values[i] = std::clamp(value, 0.0f, 1.0f);
+            pixel = std::clamp(value, 0.0f, 1.0f);
         }
     }
-    return {channel.width, channel.height, std::move(channel.values)};
+}
+
+scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield* ground) {
+    const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    ChannelRequest request;
+    request.palette = spec.classes.empty() ? Palette::kColours : Palette::kIndices;
+    request.band = spec.mask_band;
+    const std::optional<scene::Georeference> frame = ground ? ground->origin : std::nullopt;
+    request.frame = frame ? &*frame : nullptr;
+    Channel channel = read_channel(spec.mask, request);
+    check_values(spec.mask, !spec.classes.empty(), channel);
+    const MaskTable table(spec.classes);
+    if (channel.placement)
+        return warp_mask(channel, table, *ground, spec.mask);
+    if (frame && channel.turned_loose)
+        base::log_warning(base::printable(spec.mask.native(), 1024) + ": a geotransform without a CRS; spread over the whole terrain");
+    return spread_mask(std::move(channel), table);
+}
+
+} // namespace
+
+scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
+    return load(spec, &ground);
+}
+
+scene::DensityMask load_mask(const std::filesystem::path& path, const std::map<int, double>& classes) {
+    scene::TerrainSpec spec;
+    spec.mask = path;
+    spec.classes = classes;
+    return load(spec, nullptr);
 }
 
 } // namespace sward::assets

@@ -2,6 +2,7 @@
 #include "scene/heightfield.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -17,9 +18,12 @@
 namespace sward::scene {
 namespace {
 
-constexpr std::int16_t kVoid = -32768;
-constexpr int kPosts3 = 1201; // 3 arc-seconds a post
-constexpr int kPosts1 = 3601; // 1 arc-second a post
+/// Posts of a tile, west to east and north to south. North of 50 degrees a tile may have twice the spacing in longitude.
+constexpr std::array<glm::ivec2, 5> kTiles = {{{1201, 1201}, {3601, 3601}, {7201, 7201}, {601, 1201}, {1801, 3601}}};
+
+std::uint64_t tile_bytes(glm::ivec2 posts) {
+    return std::uint64_t(posts.x) * std::uint64_t(posts.y) * 2;
+}
 
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
@@ -42,8 +46,9 @@ std::optional<Georeference> corner(const std::string& stem) {
         return std::nullopt;
     if (latitude < 0 || latitude > 90 || longitude < 0 || longitude > 180)
         return std::nullopt;
-    const Georeference place{ns == 'N' ? double(latitude) : -double(latitude),
-                             ew == 'E' ? double(longitude) : -double(longitude)};
+    Georeference place;
+    place.latitude_deg = ns == 'N' ? double(latitude) : -double(latitude);
+    place.longitude_deg = ew == 'E' ? double(longitude) : -double(longitude);
     if (place.latitude_deg >= 90) // the tile would lie past the pole
         return std::nullopt;
     return place;
@@ -106,33 +111,45 @@ std::size_t fill_voids(int width, int height, std::vector<float>& metres) {
     return filled;
 }
 
+bool is_void(double value) {
+    return value == -32768 || value == -32767 || value == -32000;
+}
+
+glm::dvec2 linear_place(const Georeference& frame, double latitude_deg, double longitude_deg) {
+    const double east = std::remainder(longitude_deg - frame.longitude_deg, 360.0);
+    return {east * frame.metres_per_degree.x, (frame.latitude_deg - latitude_deg) * frame.metres_per_degree.y};
+}
+
 Heightfield read_hgt(const std::filesystem::path& path) {
-    constexpr std::uint64_t kLargest = std::uint64_t{kPosts1} * kPosts1 * 2;
-    const std::vector<std::byte> bytes = base::read_file(path, kLargest);
-    const int side = bytes.size() == kLargest                             ? kPosts1
-                     : bytes.size() == std::size_t{kPosts3} * kPosts3 * 2 ? kPosts3
-                                                                          : 0;
-    if (side == 0)
+    const std::vector<std::byte> bytes = base::read_file(path, tile_bytes(kTiles[2]));
+    const auto tile = std::find_if(kTiles.begin(), kTiles.end(), [&](glm::ivec2 t) { return tile_bytes(t) == bytes.size(); });
+    if (tile == kTiles.end())
         throw bad(path, "not an .hgt tile", fmt::format("{} bytes", bytes.size()),
-                  fmt::format("{} or {} bytes", kPosts3 * kPosts3 * 2, kLargest));
+                  fmt::format("{} bytes (1201 x 1201 posts), {} (3601 x 3601) or {} (1801 x 3601)", tile_bytes(kTiles[0]),
+                              tile_bytes(kTiles[1]), tile_bytes(kTiles[4])));
     const auto south_west = corner(path.stem().string());
     if (!south_west)
         throw bad(path, "name of an .hgt tile", base::printable(path.stem().native()),
                   "a name like N36W085.hgt");
 
     Heightfield field;
-    field.width = field.height = side;
-    field.origin = Georeference{south_west->latitude_deg + 0.5, south_west->longitude_deg + 0.5};
-    field.spacing_m = metres_per_degree(field.origin->latitude_deg) / double(side - 1);
+    field.width = tile->x;
+    field.height = tile->y;
+    Georeference origin;
+    origin.latitude_deg = south_west->latitude_deg + 0.5;
+    origin.longitude_deg = south_west->longitude_deg + 0.5;
+    origin.metres_per_degree = metres_per_degree(origin.latitude_deg);
+    origin.source = "WGS 84";
+    field.spacing_m = origin.metres_per_degree / glm::dvec2(*tile - 1);
+    field.origin = origin;
     field.metres.reserve(bytes.size() / 2);
     for (std::size_t i = 0; i < bytes.size(); i += 2) {
         const auto word = static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes[i]) << 8 |
                                                      std::to_integer<unsigned>(bytes[i + 1]));
         const auto metres = static_cast<std::int16_t>(word);
-        field.metres.push_back(metres == kVoid ? std::numeric_limits<float>::quiet_NaN()
-                                               : float(metres));
+        field.metres.push_back(is_void(metres) ? std::numeric_limits<float>::quiet_NaN() : float(metres));
     }
-    fill_voids(side, side, field.metres);
+    fill_voids(field.width, field.height, field.metres);
     if (std::isnan(field.metres.front())) // one left over means that all are
         throw bad(path, "no elevation", "voids (-32768) only", "heights");
     return field;

@@ -15,8 +15,11 @@ namespace sward::scene {
 namespace {
 
 constexpr std::string_view kAbsolute = "abs:";
+constexpr std::string_view kGeo = "geo:";
 constexpr std::array<const char*, 5> kFields = {"x", "y", "z", "yaw", "pitch"};
+constexpr std::array<const char*, 5> kGeoFields = {"latitude", "longitude", "height", "yaw", "pitch"};
 constexpr std::array<Range, 5> kRanges = {kPlace, kHeight, kPlace, kYaw, kPitch};
+constexpr std::array<Range, 5> kGeoRanges = {kLatitude, kLongitude, kHeight, kYaw, kPitch};
 
 base::Error usage(const std::string& option, std::string_view found, std::string_view expected) {
     return {base::ExitCode::kUsage,
@@ -85,13 +88,16 @@ Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& pa
 }
 
 Pose parse_pose(const std::string& text, const std::string& option) {
-    constexpr const char* kForm = "x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch";
+    constexpr const char* kForm = "x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
     const std::string found = text.empty() ? "nothing" : base::printable(text);
     Pose pose;
     std::string_view rest = text;
     pose.agl = !rest.starts_with(kAbsolute);
     if (!pose.agl)
         rest.remove_prefix(kAbsolute.size());
+    const bool geo = rest.starts_with(kGeo);
+    if (geo)
+        rest.remove_prefix(kGeo.size());
 
     std::array<double, 5> values{};
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -103,17 +109,55 @@ Pose parse_pose(const std::string& text, const std::string& option) {
         const auto result = std::from_chars(field.data(), field.data() + field.size(), values[i]);
         if (result.ptr != field.data() + field.size() || result.ec == std::errc::invalid_argument)
             throw usage(option, found, kForm);
-        const Range& range = kRanges[i];
+        const Range& range = geo ? kGeoRanges[i] : kRanges[i];
         if (result.ec != std::errc() || !(values[i] >= range.low && values[i] <= range.high))
             throw usage(
-                option, fmt::format("{} = {}", kFields[i], base::printable(field)),
+                option, fmt::format("{} = {}", geo ? kGeoFields[i] : kFields[i], base::printable(field)),
                 fmt::format("a number from {} to {} {}", range.low, range.high, range.unit));
         rest.remove_prefix(last ? rest.size() : comma + 1);
     }
-    pose.position = {values[0], values[1], values[2]};
+    if (geo)
+        pose.geo = glm::dvec2(values[0], values[1]);
+    pose.position = geo ? glm::dvec3(0, values[2], 0) : glm::dvec3(values[0], values[1], values[2]);
     pose.yaw_deg = values[3];
     pose.pitch_deg = values[4];
     return pose;
+}
+
+namespace {
+
+/// Places may lie as far from the middle as files may write them.
+void settle(std::optional<glm::dvec2>& geo, glm::dvec3& position, const PlaceOnEarth& on_earth, const std::string& what) {
+    if (!geo)
+        return;
+    const base::ExitCode code = what.starts_with("--") ? base::ExitCode::kUsage : base::ExitCode::kBadInput;
+    const std::string found = fmt::format("latitude {}, longitude {}", geo->x, geo->y);
+    if (!on_earth)
+        throw base::Error(code, fmt::format("{}: found {}, expected x and z: the terrain has no place on Earth", what, found));
+    const glm::dvec2 place = on_earth(geo->x, geo->y);
+    if (!(std::abs(place.x) <= kPlace.high && std::abs(place.y) <= kPlace.high))
+        throw base::Error(code, fmt::format("{}: found {}, {:.0f} km from the terrain's middle, expected at most {:.0f} km",
+                                                                 what, found, glm::length(place) / 1000, kPlace.high / 1000));
+    position.x = place.x;
+    position.z = place.y;
+    geo.reset();
+}
+
+} // namespace
+
+void settle_place(Pose& pose, const PlaceOnEarth& on_earth, const std::string& what) {
+    settle(pose.geo, pose.position, on_earth, what);
+}
+
+void settle_places(Scene& scene, const PlaceOnEarth& on_earth) {
+    const std::string file = base::printable(scene.file.native(), 1024) + ": ";
+    for (auto& [name, camera] : scene.cameras)
+        settle_place(camera, on_earth, file + "camera." + name + ".geo");
+    for (auto& [name, path] : scene.paths)
+        for (PathKey& key : path.keys)
+            settle(key.geo, key.position, on_earth, file + "path." + name + ".keys.geo");
+    for (ObjectSpec& object : scene.objects)
+        settle(object.geo, object.position, on_earth, file + "object.geo");
 }
 
 std::string format_pose(const Pose& pose) {

@@ -11,6 +11,8 @@ struct Range {
 
 inline constexpr Range kPlace{
     -1e6, 1e6, "m"}; // from the terrain's centre; float32 on the GPU keeps 6 cm there
+inline constexpr Range kLatitude{-90, 90, "degrees"};
+inline constexpr Range kLongitude{-180, 360, "degrees"};
 inline constexpr Range kHeight{-2e4, 1e5, "m"};
 inline constexpr Range kYaw{-360, 360, "degrees"};
 inline constexpr Range kPitch{-90, 90, "degrees"};

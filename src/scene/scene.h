@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -22,6 +23,8 @@ struct Pose {
     double pitch_deg = 0;
     bool agl = true;     ///< position.y is above the ground; else above the datum
     double fov_deg = 60; ///< vertical
+    /// Latitude and longitude (degrees, WGS 84) that x and z are to be taken from; settle_places does it.
+    std::optional<glm::dvec2> geo;
 };
 
 struct PathKey {
@@ -29,6 +32,7 @@ struct PathKey {
     glm::dvec3 position{0, 0, 0};
     double yaw_deg = 0;
     double pitch_deg = 0;
+    std::optional<glm::dvec2> geo; ///< as of a Pose
 };
 
 /// Keys in rising time; Catmull-Rom in position, shortest turn in yaw; held at both ends.
@@ -48,6 +52,8 @@ struct TerrainSpec {
     std::map<int, double> classes;
     double detail_m = 0.5;      ///< amplitude of procedural relief; 0 = none
     std::filesystem::path surface; ///< a mesh instead of elevation; the datum is its own y = 0
+    int elevation_band = 0; ///< of the file's bands, from 1; 0: the first, with a warning where there are more
+    int mask_band = 0;
 };
 
 struct GrassSpec {
@@ -71,6 +77,7 @@ struct ObjectSpec {
     glm::dvec3 colour{0.45, 0.42, 0.38}; ///< linear reflectance
     bool collides = true;   ///< grass feels it
     int most_spheres = 256; ///< that a mesh which grass feels is packed with
+    std::optional<glm::dvec2> geo; ///< as of a Pose
 };
 
 /// Overrides of the tiers' distances; unset means by projected size.
@@ -101,8 +108,17 @@ struct Scene {
 /// The same from a text; `file` is where it stands or will, for messages and the names in it.
 [[nodiscard]] Scene parse_scene(const std::string& text, const std::filesystem::path& file);
 
+/// x, z of a latitude and longitude (degrees) in the terrain's frame.
+using PlaceOnEarth = std::function<glm::dvec2(double latitude_deg, double longitude_deg)>;
+/// Gives every camera, path and object whose place is a latitude and longitude its x and z. `on_earth` is null where the terrain
+/// has no place on Earth; then Error(kBadInput) where one is needed.
+void settle_places(Scene& scene, const PlaceOnEarth& on_earth);
+/// The same for one pose; `what` names it in the error, which is of the command line (kUsage) where it is an option.
+void settle_place(Pose& pose, const PlaceOnEarth& on_earth, const std::string& what);
+
 /// "x,y,z,yaw,pitch" (y above the ground) or "abs:x,y,z,yaw,pitch" (y above the datum), in the C locale whatever the
-/// environment says. Throws Error(kUsage) naming `option`. Ranges as in scene files.
+/// environment says; with "geo:" in front of the numbers, LAT,LON,HEIGHT,YAW,PITCH (Pose::geo). Throws Error(kUsage) naming
+/// `option`. Ranges as in scene files.
 [[nodiscard]] Pose parse_pose(const std::string& text, const std::string& option);
 /// The same form, for --camera: parse_pose(format_pose(p)) == p to a millimetre and a thousandth of a degree.
 [[nodiscard]] std::string format_pose(const Pose& pose);

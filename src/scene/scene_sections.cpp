@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::size_t kMostKeys = 10000;
 constexpr int kHighestClass = 65535; // 16-bit landcover
+constexpr int kMostBands = 256;
 
 constexpr int kMostSpheres = 10000;      // of one mesh
 
@@ -22,6 +23,27 @@ std::optional<glm::dvec2> read_pair(TableReader& table, const char* key, const R
     return glm::dvec2(given[0], given[1]);
 }
 
+/// A place as [x, y, z], or on Earth as [latitude, longitude, height]; height is what y would be.
+void read_place(TableReader& table, glm::dvec3& position, std::optional<glm::dvec2>& geo) {
+    const bool placed = table.place("position", position);
+    std::vector<double> given;
+    if (!table.numbers("geo", given, {kLatitude, kLongitude, kHeight})) {
+        if (placed)
+            geo.reset();
+        return;
+    }
+    if (placed)
+        throw table.error("geo", "position beside it", "one of the two");
+    geo = glm::dvec2(given[0], given[1]);
+    position = {0, given[2], 0};
+}
+
+/// Refuses a table with neither.
+void require_place(const TableReader& table) {
+    if (!table.has("geo"))
+        table.require("position");
+}
+
 } // namespace
 
 void read_colour(TableReader& table, const char* key, glm::dvec3& colour) {
@@ -32,9 +54,11 @@ void read_colour(TableReader& table, const char* key, glm::dvec3& colour) {
 
 void read_terrain(TableReader table, TerrainSpec& terrain) {
     table.path("elevation", terrain.elevation);
-    terrain.size_m = read_pair(table, "size_m", {1, 1e6, "m"});
+    table.integer("elevation_band", terrain.elevation_band, 1, kMostBands);
+    terrain.size_m = read_pair(table, "size_m", {1, 1.2e6, "m"});
     terrain.height_m = read_pair(table, "height_m", {-2e4, 2e4, "m"});
     table.path("mask", terrain.mask);
+    table.integer("mask_band", terrain.mask_band, 1, kMostBands);
     table.number("detail_m", terrain.detail_m, {0, 10, "m"});
     table.path("surface", terrain.surface);
     if (auto classes = table.table("classes"))
@@ -84,13 +108,13 @@ void read_lod(TableReader table, LodSpec& lod) {
 
 Pose read_camera(TableReader table) {
     Pose pose;
-    table.place("position", pose.position);
+    read_place(table, pose.position, pose.geo);
     table.boolean("agl", pose.agl);
     table.number("yaw_deg", pose.yaw_deg, kYaw);
     table.number("pitch_deg", pose.pitch_deg, kPitch);
     table.number("fov_deg", pose.fov_deg, kFov);
     table.finish();
-    table.require("position");
+    require_place(table);
     return pose;
 }
 
@@ -106,12 +130,12 @@ Path read_path(TableReader table) {
     for (TableReader& entry : keys) {
         const double before = key.t_s;
         entry.number("t", key.t_s, kTime);
-        entry.place("position", key.position);
+        read_place(entry, key.position, key.geo);
         entry.number("yaw_deg", key.yaw_deg, kYaw);
         entry.number("pitch_deg", key.pitch_deg, kPitch);
         entry.finish();
         entry.require("t");
-        entry.require("position");
+        require_place(entry);
         if (!path.keys.empty() && key.t_s <= before)
             throw entry.error("t", fmt::format("{}", key.t_s),
                               fmt::format("more than {}, the key before", before));
@@ -138,7 +162,7 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
     table.name("kind", object.kind);
     table.number("radius_m", object.radius_m, {0.01, 1000, "m"});
     table.path("mesh", object.mesh);
-    table.place("position", object.position);
+    read_place(table, object.position, object.geo);
     table.boolean("agl", object.agl);
     table.number("yaw_deg", object.yaw_deg, kYaw);
     table.name("path", object.path);
@@ -152,8 +176,9 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
                           fmt::format("one of {}", fmt::join(kObjectKinds, ", ")));
     if (object.kind == "mesh")
         table.require("mesh");
-    if (table.has("position") == table.has("path"))
-        throw table.error("", table.has("path") ? "both" : "neither", "either position or path");
+    const bool placed = table.has("position") || table.has("geo");
+    if (placed == table.has("path"))
+        throw table.error("", placed ? "both" : "neither", "either position or path");
     if (table.has("agl") && table.has("path"))
         throw table.error("agl", "a path beside it", "agl in the path");
     check_path(table, object.path, paths);

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "shared/bindings.h"
 #include "shared/surface.h"
+#include "terrain/mask_mips.h"
 
 namespace sward::terrain {
 
@@ -35,12 +36,27 @@ gl::Texture posts_texture(const scene::Heightfield& elevation) {
     return texture;
 }
 
+/// With mips of its own making: what a driver makes of odd sizes loses or shifts a row.
 gl::Texture mask_texture(const scene::DensityMask& mask) {
-    static constexpr float kOne = 1;
-    const bool given = mask.width > 0;
-    gl::Texture texture(GL_R8, {given ? mask.width : 1, given ? mask.height : 1});
-    texture.upload(0, GL_RED, GL_FLOAT, given ? mask.density.data() : &kOne);
-    texture.set_filter(GL_LINEAR, GL_LINEAR);
+    if (mask.width < 1) {
+        gl::Texture none(GL_R8, {1, 1});
+        static constexpr float kOne = 1;
+        none.upload(0, GL_RED, GL_FLOAT, &kOne);
+        return none;
+    }
+    glm::ivec2 size(mask.width, mask.height);
+    gl::TextureShape shape;
+    shape.width = size.x;
+    shape.height = size.y;
+    shape.mips = mip_count(size);
+    gl::Texture texture(GL_R8, shape);
+    texture.upload(0, GL_RED, GL_FLOAT, mask.density.data());
+    std::vector<float> texels;
+    for (int mip = 1; mip < shape.mips; ++mip) {
+        texels = next_mip(mip == 1 ? mask.density : texels, size);
+        texture.upload(mip, GL_RED, GL_FLOAT, texels.data());
+    }
+    texture.set_filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     texture.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
     return texture;
 }
@@ -59,7 +75,13 @@ Clipmap::Clipmap(const Surface& surface, const scene::DensityMask& mask)
       elevation_(posts_texture(surface.elevation())), mask_(mask_texture(mask)),
       heights_(level_texture(GL_R32F, levels())), surfaces_(level_texture(GL_RGBA8, levels())),
       params_(sizeof(shared::SurfaceParams)), height_program_("clipmap height", {"terrain/clipmap_height.comp"}),
-      surface_program_("clipmap surface", {"terrain/clipmap_surface.comp"}), has_mask_(mask.width > 0) {}
+      surface_program_("clipmap surface", {"terrain/clipmap_surface.comp"}), mask_first_(mask.first_m), mask_size_(mask.size_m),
+      mask_mode_(mask.width < 1 ? shared::kMaskNone : mask.bounded ? shared::kMaskBounded : shared::kMaskEndless) {
+    if (mask_size_.x <= 0 || mask_size_.y <= 0) { // spread over all of the posts
+        mask_size_ = surface.elevation().extent_m();
+        mask_first_ = -0.5 * mask_size_;
+    }
+}
 
 void Clipmap::update(glm::dvec2 eye) {
     for (int level = 0; level < levels(); ++level) {
@@ -79,13 +101,12 @@ void Clipmap::fill(int level) {
     const auto index = static_cast<std::size_t>(level);
     shared::SurfaceParams params{};
     params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {surface_.relief_m(), 0, has_mask_ ? 1 : 0, 0};
+    params.relief = {surface_.relief_m(), 0, 0, 0};
     params.level = {windows_[index].first.x, windows_[index].first.y, level, 0};
     params.step = {spacing(level), 0, 0, 0};
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
     elevation_.bind(TEX_ELEVATION);
-    mask_.bind(TEX_MASK);
     constexpr GLuint kGroups = shared::kClipCells / CLIP_GROUP;
     height_program_.use();
     glBindImageTexture(0, heights_.id(), 0, GL_FALSE, level, GL_WRITE_ONLY, GL_R32F);
@@ -101,10 +122,13 @@ void Clipmap::fill(int level) {
 void Clipmap::bind() const {
     heights_.bind(TEX_CLIP_HEIGHT);
     surfaces_.bind(TEX_CLIP_SURFACE);
+    mask_.bind(TEX_MASK);
 }
 
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
     frame.clip_layout.x = levels();
+    frame.clip_layout.w = mask_mode_;
+    frame.mask_place = {glm::vec2((anchor - mask_first_) / mask_size_), glm::vec2(1.0 / mask_size_)};
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.

@@ -33,7 +33,7 @@ public:
     /// Brings every level's window around the eye (world metres); recomputes the levels that moved.
     void update(glm::dvec2 eye);
     void bind() const;
-    /// Fills clip and clip_layout.x of the frame constants for an anchor (world metres).
+    /// Fills clip, clip_layout.x and .w, and mask_place of the frame constants for an anchor (world metres).
     void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
 
     [[nodiscard]] int levels() const { return static_cast<int>(windows_.size()); }
@@ -50,7 +50,8 @@ private:
     gl::Texture elevation_, mask_, heights_, surfaces_;
     gl::Buffer params_;
     gl::Program height_program_, surface_program_;
-    bool has_mask_;
+    glm::dvec2 mask_first_, mask_size_; ///< world metres
+    int mask_mode_;                     ///< kMask*
 };
 
 } // namespace sward::terrain

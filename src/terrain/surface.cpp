@@ -8,11 +8,20 @@
 
 namespace sward::terrain {
 
-Surface::Surface(scene::Heightfield elevation, double relief_m) : elevation_(std::move(elevation)), relief_m_(relief_m) {
-    const auto [low, high] = std::minmax_element(elevation_.metres.begin(), elevation_.metres.end());
-    // Catmull-Rom overshoots by at most an eighth of the range between neighbours; 5 % of the whole range is ample.
-    const double slack = 0.05 * (*high - *low) + 2 * relief_m;
-    range_ = {*low - slack, *high + slack};
+Surface::Surface(scene::Heightfield elevation, double relief_m)
+    : elevation_(std::move(elevation)), bounds_(elevation_), relief_m_(relief_m), range_(with_relief(bounds_.all())) {}
+
+glm::dvec2 Surface::with_relief(glm::vec2 range) const {
+    // Gradient noise stays below sqrt(1/2), and the octaves' weights sum up to 1.79; the rest is what floats round.
+    const double slack = 1.27 * relief_m_ + 1e-3 + 1e-6 * std::max(std::abs(range.x), std::abs(range.y));
+    return {range.x - slack, range.y + slack};
+}
+
+glm::dvec2 Surface::bounds(glm::dvec2 corner, double side) const {
+    const glm::dvec2 middle = 0.5 * glm::dvec2(elevation_.width - 1, elevation_.height - 1);
+    const glm::dvec2 low = corner / elevation_.spacing_m + middle;
+    constexpr double kRounding = 1e-3; // posts: the surface is evaluated at places in floats
+    return with_relief(bounds_.over(low - kRounding, low + side / elevation_.spacing_m + kRounding, elevation_));
 }
 
 float Surface::post(int i, int j) const {

@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/heightfield.h"
+#include "terrain/post_bounds.h"
 
 namespace sward::terrain {
 
@@ -21,10 +22,15 @@ public:
     [[nodiscard]] double relief_m() const { return relief_m_; }
     /// Lowest and highest surface, relief included.
     [[nodiscard]] glm::dvec2 range() const { return range_; }
+    /// Least and greatest height over the square of `side` metres whose north-west corner is `corner` (x, z), relief included.
+    /// Never too narrow.
+    [[nodiscard]] glm::dvec2 bounds(glm::dvec2 corner, double side) const;
 
 private:
     [[nodiscard]] float post(int i, int j) const;
+    [[nodiscard]] glm::dvec2 with_relief(glm::vec2 range) const;
     scene::Heightfield elevation_;
+    PostBounds bounds_;
     double relief_m_;
     glm::dvec2 range_;
 };

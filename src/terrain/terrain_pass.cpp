@@ -27,15 +27,10 @@ bool in_hole(const Clipmap& clipmap, int level, int i, int j) {
     return offset.x >= 0 && offset.y >= 0 && offset.x < shared::kClipCells / 2 && offset.y < shared::kClipCells / 2;
 }
 
-/// Bounds of the surface over a block, world metres: nine samples and what can rise between them; z: rise over run.
+/// Bounds of the surface over a block, world metres; z: rise over run.
 glm::dvec3 block_range(const Surface& surface, glm::dvec2 corner, double side) {
-    glm::dvec2 range(1e30, -1e30);
-    for (int k = 0; k < 9; ++k) {
-        const double h = surface.height(corner.x + side * 0.5 * (k % 3), corner.y + side * 0.5 * (k / 3));
-        range = {std::min(range.x, h), std::max(range.y, h)};
-    }
-    const double slack = 0.08 * side + surface.relief_m();
-    return {range.x - slack, range.y + slack, (range.y - range.x) / side};
+    const glm::dvec2 range = surface.bounds(corner, side);
+    return {range, std::max(range.y - range.x - 2.54 * surface.relief_m(), 0.0) / side};
 }
 
 } // namespace

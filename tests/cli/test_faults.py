@@ -105,6 +105,40 @@ class Signals(CliCase):
         self.assertEqual(temporaries(cache), [])
         self.assertEqual([p for p in (cache / "sward/sets").iterdir() if p.is_dir()], [])
 
+    def test_killed_baker(self):
+        """The texgen that sward runs dies: one line, exit 1, nothing left."""
+        (self.dir / "scene.toml").write_text(sward_cli.SCENE.replace('"set"', '"long.toml"'))
+        cache = self.dir / "cache"
+        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE, "-q",
+                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        pause = threading.Event()
+        for _ in range(3000):
+            if temporaries(cache) or child.poll() is not None:
+                break
+            pause.wait(0.01)
+        for baker in (f"/proc/{child.pid}/task/{child.pid}/children",):
+            with open(baker, encoding="ascii") as numbers:
+                for number in numbers.read().split():
+                    os.kill(int(number), signal.SIGKILL)
+        _, err = child.communicate(timeout=30)
+        self.assertEqual(child.returncode, 1, err)
+        lines = err.decode().splitlines()
+        self.assertEqual(len(lines), 1, err)
+        self.assertIn("signal 9", lines[0])
+        self.assertFalse((self.dir / "out.png").exists())
+
+    def test_empty_preset(self):
+        """A preset that sets nothing bakes the default meadow, and says so."""
+        (self.dir / "empty.toml").write_text("# nothing = here\n\n[patch]\n")
+        (self.dir / "scene.toml").write_text(sward_cli.SCENE.replace('"set"', '"empty.toml"'))
+        cache = self.dir / "cache"
+        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE,
+                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        self.assertTrue(sward_cli.interrupt(child, signal.SIGTERM, lambda: temporaries(cache)))
+        _, err = child.communicate(timeout=30)
+        self.assertIn("warning: ", err.decode())
+        self.assertIn("empty.toml: sets nothing", err.decode())
+
     def test_kill(self):
         """kill -9 leaves a temporary, never half a set; the next run sweeps it."""
         child = sward_cli.start("texgen", "long.toml", "-o", "made", cwd=self.dir)

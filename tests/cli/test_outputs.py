@@ -26,13 +26,32 @@ class Outputs(CliCase):
         self.refuse_output(5, ["/dev/full", "a device"], "/dev/full")
         self.refuse_output(5, ["pipe.png", "FIFO"], "pipe.png")
         self.refuse_output(5, ["loop.png"], "loop.png")
-        self.refuse_output(5, ["missing"], "missing/out.png")
+        self.refuse_output(5, ["file"], "file/deep/out.png")
         self.refuse_output(5, ["file"], "file/out.png")
         self.refuse_output(5, ["too long"], "n" * 300 + ".png")
         self.refuse_output(2, ["--output", "found \"\""], "")
         for name in ("out", "out.jpg", "out.png.txt", ".png", "out."):
             with self.subTest(name=name):
                 self.refuse_output(2, ["--output", name], name)
+
+    def test_folders_are_made(self):
+        """The folder of an output is made, once there is something to put into it; a frame's number belongs to the name alone."""
+        self.assert_done(self.render("-o", "new/deeper/out.png", "--stats", "other/s.json"))
+        self.assertTrue((self.dir / "new/deeper/out.png").exists())
+        self.assertTrue((self.dir / "other/s.json").exists())
+        self.assert_done(self.render("-o", "out/100% gras/%d/f.%04d.png", "--frames", "0:1"))
+        self.assertEqual(sorted(p.name for p in (self.dir / "out/100% gras/%d").iterdir()), ["f.0000.png", "f.0001.png"])
+        self.refuse_output(2, ["--output", "%04d"], "f.%04d/out.png", "--frames", "0:1")
+
+    def test_no_working_directory(self):
+        """A relative output in a folder that is gone: the contract's line and code."""
+        scene = self.dir / "scene.toml"
+        gone = self.dir / "gone"
+        gone.mkdir()
+        result = sward_cli.run("sward", "render", scene, "-o", "out.png", "--size", SIZE, cwd=gone, limits=lambda: os.rmdir(gone))
+        self.assertEqual(result.code, 5, result.err)
+        self.assertEqual(len(result.err.splitlines()), 1, result.err)
+        self.assertTrue(result.err.startswith("error: "), result.err)
 
     def test_inputs(self):
         """An output that is the scene's own file under any name is refused."""
@@ -72,6 +91,28 @@ class Outputs(CliCase):
             self.assertEqual(len(result.err.splitlines()), 1, result.err)
             self.assertIn(name, result.err)
             self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_picture_and_statistics(self):
+        """Both or neither: here there is room for a picture of four pixels and not for its statistics."""
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+
+        env = sward_cli.environment(MESA_SHADER_CACHE_DISABLE="true")
+        self.assert_done(self.render("--size", "2x2", "--samples", "1", limits=small, env=env))
+        (self.dir / "out.png").unlink()
+        before = sward_cli.snapshot(self.dir)
+        result = self.render("--size", "2x2", "--samples", "1", "--stats", "s.json", limits=small, env=env)
+        self.assertEqual(result.code, 5, result.err)
+        self.assertEqual(len(result.err.splitlines()), 1, result.err)
+        self.assertIn("s.json", result.err)
+        self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_stdout(self):
+        """Results that cannot be written to stdout are a failure too."""
+        for arguments in ("--version", "--help", "info"):
+            result = sward_cli.run("/bin/sh", "-c", f'"$0" {arguments} > /dev/full', sward_cli.BIN / "sward")
+            self.assertEqual(result.code, 5, arguments)
+            self.assertEqual(len(result.err.splitlines()), 1, result.err)
 
     def test_texgen_full_disk(self):
         def small():

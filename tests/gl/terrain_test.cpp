@@ -137,6 +137,46 @@ TEST_F(Terrain, GroundIsContinuousAcrossLevels) {
     EXPECT_GE(last_level, 3); // borders were crossed
 }
 
+/// A bare strip of 8 m in a mask of 1 m, far from the eye: the clipmap's posts there are wider than it.
+scene::DensityMask striped_mask(bool bounded) {
+    scene::DensityMask mask;
+    mask.width = 1500;
+    mask.height = 500;
+    for (int n = 0; n < mask.width * mask.height; ++n)
+        mask.density.push_back(n % mask.width >= 700 && n % mask.width < 708 ? 0.0f : 1.0f);
+    mask.first_m = {-700, -1200};
+    mask.size_m = {1500, 500};
+    mask.bounded = bounded;
+    return mask;
+}
+
+TEST_F(Terrain, TheMaskIsReadByThePixel) {
+    const ShaderCopy shaders;
+    for (const bool bounded : {true, false}) {
+        SmallWorld world(hilly_field(), 0, striped_mask(bounded), {4, 330, -400});
+        std::vector<glm::vec4> places;
+        const auto add = [&](double x, double z) {
+            places.emplace_back(glm::vec2(glm::dvec2(x, z) - glm::dvec2(world.anchor.x, world.anchor.z)), 0, 0);
+        };
+        for (int step = 0; step < 100; ++step) // along the strip, and to both sides of it
+            add(4, -850 - 3 * step), add(-8, -850 - 3 * step), add(16, -850 - 3 * step);
+        add(-900, -900), add(4, 400); // outside
+        const auto read = [&](const char* width) {
+            return run_probe(shaders, {"lib/ground.glsl"}, std::string("    b = vec4(ground_surface(a.xy, ") + width + ").density);", places);
+        };
+        const auto pixel = read("0.0");
+        for (std::size_t i = 0; i < 300; i += 3) {
+            ASSERT_LT(pixel[i].x, 0.05) << i; // a pixel is one to two metres here
+            ASSERT_GT(pixel[i + 1].x, 0.95) << i;
+            ASSERT_GT(pixel[i + 2].x, 0.95) << i;
+        }
+        EXPECT_EQ(pixel[300].x, bounded ? 0 : 1) << "outside the mask";
+        EXPECT_NEAR(pixel[301].x, bounded ? 0 : 0, 0.05);
+        const auto wide = read("64.0");
+        EXPECT_NEAR(wide[0].x, 1 - 8 / 64.0, 0.08) << "the share that is left of a wider one";
+    }
+}
+
 /// Every point of the ground in view belongs to exactly one block.
 TEST_F(Terrain, BlocksCoverTheGroundOnce) {
     SmallWorld world(hilly_field(), 0.8, {}, {123.4, 345, -321.5});

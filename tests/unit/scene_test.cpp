@@ -591,6 +591,35 @@ protected:
     TempDir dir_;
 };
 
+TEST(PlacesOnEarth, AreReadAndSettled) {
+    const Pose pose = parse_pose("geo:49.5,-9.25,12,90,-5", "--camera");
+    EXPECT_EQ(*pose.geo, glm::dvec2(49.5, -9.25));
+    EXPECT_EQ(pose.position.y, 12);
+    EXPECT_TRUE(pose.agl);
+    EXPECT_EQ(pose.yaw_deg, 90);
+    EXPECT_FALSE(parse_pose("abs:geo:1,2,3,4,5", "--camera").agl);
+    for (const char* text : {"geo:1,2,3,4", "geo:91,2,3,4,5", "geo:1,361,3,4,5", "geo:nan,2,3,4,5", "geo:", "GEO:1,2,3,4,5"})
+        EXPECT_THROW((void)parse_pose(text, "--camera"), base::Error) << text;
+    const std::string head = "[terrain]\nelevation='h'\n";
+    Scene scene = parse_scene(head + "[camera.a]\ngeo=[1,2,3]\n[path.p]\nkeys=[{t=0,geo=[1,2,3]},{t=1,position=[7,8,9]}]\n"
+                                     "[[object]]\nkind='sphere'\ngeo=[3,4,0]\n", "s.toml");
+    const PlaceOnEarth ten_times = [](double latitude, double longitude) { return glm::dvec2(longitude * 10, -latitude * 10); };
+    settle_places(scene, ten_times);
+    EXPECT_EQ(scene.cameras.at("a").position, glm::dvec3(20, 3, -10));
+    EXPECT_FALSE(scene.cameras.at("a").geo);
+    EXPECT_EQ(scene.paths.at("p").keys[0].position, glm::dvec3(20, 3, -10));
+    EXPECT_EQ(scene.paths.at("p").keys[1].position, glm::dvec3(7, 8, 9)) << "a key does not take the place of the one before";
+    EXPECT_EQ(scene.objects[0].position, glm::dvec3(40, 0, -30));
+    Pose lost = pose;
+    EXPECT_NE(error_of([&] { settle_place(lost, {}, "--camera"); }, ExitCode::kUsage).find("no place on Earth"), std::string::npos);
+    lost = parse_pose("geo:80,80,0,0,0", "--camera");
+    const PlaceOnEarth far = [](double, double) { return glm::dvec2(5e6, 0); };
+    EXPECT_NE(error_of([&] { settle_place(lost, far, "scene"); }).find("5000 km from"), std::string::npos);
+    EXPECT_THROW((void)parse_scene(head + "[camera.a]\ngeo=[1,2,3]\nposition=[1,2,3]\n", "s.toml"), base::Error);
+    EXPECT_THROW((void)parse_scene(head + "[camera.a]\ngeo=[1,2]\n", "s.toml"), base::Error);
+    EXPECT_THROW((void)parse_scene(head + "[camera.a]\nyaw_deg=0\n", "s.toml"), base::Error);
+}
+
 TEST_F(Hgt, IsPlacedByItsName) {
     write("N36W085.hgt", [](int i, int j) { return i - j; });
     const Heightfield field = read_hgt(dir_ / "N36W085.hgt");
@@ -620,7 +649,7 @@ TEST_F(Hgt, RefusesWrongSizesAndNames) {
     put(dir_ / "N36W085.hgt", std::string(1000, 'x'));
     EXPECT_NE(error_of([&] {
                   (void)read_hgt(dir_ / "N36W085.hgt");
-              }).find("not an .hgt tile: found 1000 bytes, expected 2884802 or 25934402 bytes"),
+              }).find("not an .hgt tile: found 1000 bytes, expected 2884802 bytes (1201 x 1201 posts), 25934402 (3601 x 3601)"),
               std::string::npos);
     put(dir_ / "N37W085.hgt", "");
     EXPECT_NE(error_of([&] { (void)read_hgt(dir_ / "N37W085.hgt"); }).find("found 0 bytes"),
