@@ -56,7 +56,8 @@ int run_import(const ImportOptions& options) {
     if (joint.ratio() > kMostJointRatio)
         base::log_warning(fmt::format("{}: the joint's gradient is {:.2f} times the interior's: the volume is not periodic{}",
                                       options.input.string(), joint.ratio(), options.seam ? "; try another --cut" : ", --seam makes it so"));
-    ImportQuery query{options.name, options.density, options.size, options.layers, options.slices, options.levels, options.threads};
+    ImportQuery query{.name = options.name, .density = options.density, .size = options.size, .layers = options.layers,
+                      .slices = options.slices, .levels = options.levels, .threads = options.threads};
     if (query.name.empty())
         query.name = volume.preset.empty() ? plain_name(options.input) : volume.preset;
     grass::GrassSet set = import_volume(volume, query, options.input);
