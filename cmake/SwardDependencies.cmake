@@ -15,6 +15,8 @@ if(NOT SWARD_CORE_ONLY)
     find_package(glfw3 3.3 CONFIG REQUIRED)
     find_package(Imath 3 CONFIG REQUIRED)
     find_package(OpenVDB REQUIRED)
+    find_package(ZLIB REQUIRED) # what OpenVDB packs its files with: texgen unpacks them itself
+    pkg_check_modules(blosc REQUIRED IMPORTED_TARGET blosc)
     find_package(GDAL REQUIRED)
     pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
     pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)

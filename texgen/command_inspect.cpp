@@ -9,6 +9,7 @@
 #include "texgen/commands.h"
 #include "texgen/report.h"
 #include "texgen/set_files_check.h"
+#include "texgen/vdb_file.h"
 #include "texgen/volume.h"
 
 namespace sward::texgen {
@@ -70,20 +71,12 @@ std::vector<std::byte> volume_bytes(const fs::path& path) {
         for (const FileEntry& entry : listed_files(folder))
             if (entry.name == path.filename())
                 return checked_file(folder, entry);
-    return base::read_file(path, kMaxFileBytes);
+    return read_vdb_file(path);
 }
 
 std::string inspect_vdb(const fs::path& path, bool json) {
     const std::vector<std::byte> bytes = volume_bytes(path);
-    VolumeInfo info;
-    try {
-        info = inspect_volume(bytes, path);
-    } catch (const base::Error&) {
-        throw;
-    } catch (const std::exception& problem) { // OpenVDB's own
-        throw base::input_error(ExitCode::kBadInput, path, 0, "volume",
-                                base::printable(problem.what()), "an OpenVDB file");
-    }
+    const VolumeInfo info = inspect_volume(bytes, path);
     if (json)
         return dump({{"file", path.string()},
                      {"grids", info.grids},

@@ -10,7 +10,9 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "texgen/commands.h"
+#include "texgen/output_place.h"
 #include "texgen/seam_images.h"
+#include "texgen/stack_json.h"
 #include "texgen/vdb_file.h"
 
 namespace sward::texgen {
@@ -57,7 +59,7 @@ void require_stack_place(const LayerStack& stack, const fs::path& output) {
     if (!fs::is_directory(output, error))
         throw base::input_error(ExitCode::kIo, output, 0, "output", "a file", "a directory for the stack, or none yet");
     for (const auto& entry : fs::directory_iterator(output)) {
-        const bool ours = std::ranges::any_of(stack.files, [&](const fs::path& file) {
+        const bool ours = entry.path().filename() == kStackJson || std::ranges::any_of(stack.files, [&](const fs::path& file) {
             return file.filename() == entry.path().filename();
         });
         if (!ours)
@@ -66,6 +68,20 @@ void require_stack_place(const LayerStack& stack, const fs::path& output) {
                                     "an earlier result, an empty directory, or none yet");
     }
     base::require_writable(output, base::PendingOutput::Kind::kDirectory);
+}
+
+/// What is known of the input, for the smaller pictures.
+StackDescription description_of(const fs::path& input, const LayerStack& stack, const LayerStack& done) {
+    std::error_code error;
+    StackDescription out;
+    if (fs::is_directory(input, error))
+        out = read_stack_json(input).value_or(out);
+    if (out.layers.empty())
+        for (const fs::path& file : done.files)
+            out.layers.push_back({file.filename().string(), std::nullopt});
+    if (out.side_m)
+        out.side_m = *out.side_m * done.images.front().width / stack.images.front().width;
+    return out;
 }
 
 Outcome seam_pictures(const SeamOptions& options) {
@@ -80,6 +96,7 @@ Outcome seam_pictures(const SeamOptions& options) {
         base::write_file_atomic(options.output, assets::encode_layer_image(done.images.front(), options.output));
     } else {
         base::PendingOutput pending(options.output, base::PendingOutput::Kind::kDirectory);
+        base::write_file_atomic(pending.path() / kStackJson, stack_json_text(description_of(options.input, stack, done)));
         for (std::size_t i = 0; i < done.images.size(); ++i)
             base::write_file_atomic(pending.path() / done.files[i].filename(),
                                     assets::encode_layer_image(done.images[i], done.files[i]));
@@ -91,7 +108,7 @@ Outcome seam_pictures(const SeamOptions& options) {
 
 Outcome seam_vdb(const SeamOptions& options) {
     base::require_writable(options.output);
-    const std::vector<std::byte> bytes = base::read_file(options.input, kMaxVdbBytes);
+    const std::vector<std::byte> bytes = read_vdb_file(options.input);
     const VdbFile file(bytes, options.input);
     const VdbCells cells = file.read_cells();
     if (cells.at.empty())
@@ -122,7 +139,7 @@ void report(const SeamOptions& options, const Outcome& outcome) {
     base::log_info(fmt::format("{}: {}, joint {:.2f} of the interior's gradient, before {:.2f}", options.output.string(),
                                outcome.size, outcome.after.ratio(), outcome.before.ratio()));
     if (outcome.after.ratio() > kMostJointRatio)
-        base::log_warning(fmt::format("the joint's gradient is {:.2f} times the interior's: try another --cut", outcome.after.ratio()));
+        base::log_warning(fmt::format("the joint's gradient is {}: try another --cut", outcome.after.words()));
     if (options.json)
         fmt::print("{}\n", nlohmann::ordered_json({{"output", options.output.string()},
                                                    {"size", outcome.size},
@@ -138,6 +155,7 @@ int run_seam(const SeamOptions& options) {
     if (!(options.cut > 0))
         throw base::Error(ExitCode::kUsage, "--cut: found 0, expected a share of the side below 1, or texels from 3");
     refuse_same_place(options.input, options.output);
+    const OutputParents parents(options.output);
     report(options, is_vdb(options.input) ? seam_vdb(options) : seam_pictures(options));
     return 0;
 }

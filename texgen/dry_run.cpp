@@ -13,6 +13,7 @@
 #include "texgen/canopy.h"
 #include "texgen/far_level.h"
 #include "texgen/parallel.h"
+#include "texgen/patch_size.h"
 
 namespace sward::texgen {
 namespace {
@@ -83,7 +84,7 @@ std::uint64_t peak_of(const Account& a, const BakeOptions& options) {
 } // namespace
 
 SetReport dry_run(const Preset& preset, const BakeOptions& options) {
-    const Patch patch = generate_patch(preset, options.threads);
+    const Patch patch = unranked_patch(preset, options.threads);
     SetReport r;
     r.name = preset.name;
     r.seed = static_cast<std::uint64_t>(preset.seed);

@@ -13,6 +13,7 @@
 #include "grass/ktx2.h"
 #include "shared/shading.h"
 #include "texgen/parallel.h"
+#include "texgen/stack_json.h"
 #include "texgen/step_timer.h"
 
 namespace sward::texgen {
@@ -21,7 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr const char* kStackJson = "stack.json";
 constexpr const char* kPrefix = "variant";
 
 /// One image of the set, and what it is called.

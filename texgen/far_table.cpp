@@ -51,8 +51,10 @@ std::vector<ViewSums> cast_views(const Canopy& canopy, double lean, std::vector<
             batches.push_back({v, views[v], {}});
         }
     const std::vector<Caster> casters = canopy.bent(lean);
+    base::Progress progress(lean > 0 ? fmt::format("far table, bent by {:.1f}", lean) : "far table, at rest", batches.size());
     parallel_for(batches.size(), resolve_threads(threads), [&](std::size_t i, int) {
         batches[i].sums = cast_view(canopy, casters, batches[i].rays);
+        progress.advance();
     });
     std::vector<ViewSums> sums(views.size());
     for (const Batch& batch : batches)
@@ -115,9 +117,11 @@ FarTable far_table(const Canopy& canopy, int rays, int threads) {
 void calibrate_shells(grass::GrassSet& set, int rays, int threads) {
     const std::size_t levels = set.levels.size();
     std::vector<std::vector<float>> curves(set.far.size() * levels); // row-major
+    base::Progress progress("shares of the shells", curves.size());
     parallel_for(curves.size(), resolve_threads(threads), [&](std::size_t i, int) {
         curves[i] = shares_needed(set, static_cast<int>(i % levels),
                                 set.far[i / levels], rays);
+        progress.advance();
     });
     base::log_debug("elevation  level   rays  all shells  share  calibrated");
     std::vector<float> shares(levels, 1);

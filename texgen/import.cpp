@@ -27,7 +27,6 @@ struct ColourFit {
 };
 
 ColourFit fit_colours(const VoxelField& field) {
-    const std::vector<glm::vec3>& colours = field.volume().colour;
     double w = 0, v = 0, vv = 0;
     glm::dvec3 c(0), cv(0);
     for (std::size_t i = 0; i < field.size(); ++i) {
@@ -35,8 +34,8 @@ ColourFit fit_colours(const VoxelField& field) {
         w += weight;
         v += weight * at;
         vv += weight * at * at;
-        c += weight * glm::dvec3(colours[i]);
-        cv += weight * at * glm::dvec3(colours[i]);
+        c += weight * glm::dvec3(field.colour(i));
+        cv += weight * at * glm::dvec3(field.colour(i));
     }
     const double spread = w * vv - v * v;
     ColourFit fit;
@@ -47,7 +46,7 @@ ColourFit fit_colours(const VoxelField& field) {
     for (std::size_t i = 0; i < field.size(); ++i) {
         const glm::dvec3 mean = glm::mix(fit.root, fit.tip, static_cast<double>(field.along(i)));
         const double expected = mean.x + mean.y + mean.z;
-        const glm::vec3& found = colours[i];
+        const glm::vec3& found = field.colour(i);
         const double off = expected > 1e-6 ? (found.x + found.y + found.z) / expected - 1 : 0;
         error += field.density(i) * off * off;
     }
@@ -59,7 +58,7 @@ ColourFit fit_colours(const VoxelField& field) {
 
 shared::GrassAppearance appearance_of(const VoxelField& field) {
     shared::GrassAppearance look = appearance(Species{});
-    if (field.volume().colour.empty())
+    if (!field.coloured())
         return look;
     const ColourFit fit = fit_colours(field);
     // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard deviation is 0.7 / sqrt 12.

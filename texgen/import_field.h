@@ -54,6 +54,10 @@ public:
     [[nodiscard]] float along(std::size_t i) const;       ///< place along the strand, 0..1
     [[nodiscard]] glm::dvec2 root(std::size_t i) const;   ///< x, z of the strand's foot, nearest image, metres
     [[nodiscard]] glm::dvec3 centre(std::size_t i) const;
+    [[nodiscard]] bool coloured() const { return !volume_.colour.empty(); }
+    /// Linear albedo of a voxel that the file gave one: what a texel that shows it should wear. The set's format has a colour a
+    /// species so far, which import.cpp fits to these.
+    [[nodiscard]] const glm::vec3& colour(std::size_t i) const { return volume_.colour[i]; }
     /// Opacity of a cloud's voxel, or area over face of a blade's.
     [[nodiscard]] float density(std::size_t i) const { return volume_.density[i] * density_; }
 

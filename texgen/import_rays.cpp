@@ -66,7 +66,7 @@ public:
     BentVoxels(const VoxelField& field, double lean) : field_(field) {
         const auto canopy = static_cast<float>(field.canopy());
         // The wind of 1 m/s along x whose bend_intensity is `lean`.
-        const auto response = static_cast<float>(-std::log(std::max(1 - lean / 0.72, 1e-7)));
+        const auto response = static_cast<float>(std::sqrt(std::pow(1 - lean, -1.5) - 1));
         const glm::vec2 wind(lean > 0 ? 1 : 0, 0);
         const int rows = field.volume().cells.y;
         for (int y = 0; y <= rows; ++y) {

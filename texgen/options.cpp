@@ -163,7 +163,8 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
                           "leave out volume.vdb (the renderer does not read it)");
     app.add_flag("--checknan", o.check_nan, "look at every number written: exit 1 on NaN or infinity");
     app.add_flag("--dry-run", o.dry_run,
-                 "check everything and tell what would be made and what it takes; write nothing");
+                 "check everything and tell what would be made and what it takes; write nothing; needs no --output");
+    app.add_flag("--list", o.list, "the shipped presets, a line each");
     app.add_flag_callback("--no-wrap", [&o] { o.wrap = false; },
                           "a test tool: cut blades at the patch's edge, so that the set shows its joints");
     declare_common(app, o);
@@ -215,12 +216,17 @@ void declare_seam(CLI::App& app, Options& o) {
 }
 
 void declare_import(CLI::App& app, Options& o) {
-    declare_path(app, "FILE", "FILE.vdb", "volume from another program", o.import.input)->required();
+    declare_path(app, "FILE", "FILE", "volume of another program (.vdb), or a directory of pictures with its stack.json",
+                 [&o](const fs::path& path) { o.import.input = directory_name(path); })
+        ->required();
     declare_path(app, "-o,--output", "DIR", "directory of the grass set",
                  [&o](const fs::path& path) { o.import.output = directory_name(path); })
         ->required();
     declare_up(app, o.import.z_up);
     declare_real(app, "--scale", "metres a unit of the file", {1e-6, 1e6}, o.import.scale);
+    declare_real(app, "--period", "metres after which the volume repeats; default as the file says, else its box", {1e-4, 1e4}, o.import.period_m);
+    declare_real(app, "--side", "metres a side of a stack of pictures, instead of its stack.json's", {0.01, 1000}, o.import.side_m);
+    declare_real(app, "--canopy", "metres from the ground to the top of a stack, likewise", {1e-4, 100}, o.import.canopy_m);
     declare_real(app, "--density", "factor on the file's density: 1 is an opaque voxel", {1e-6, 1e6}, o.import.density);
     declare(app, "--size", "N", "texels a side at level 0, a power of two; default nearest to the voxels", [&o](const std::string& text) {
         const std::int64_t n = whole_number("--size", text, "a power of two from 32 to 2048");
@@ -270,7 +276,7 @@ struct Subcommand {
 constexpr Subcommand kSubcommands[] = {
     {"seam", "make a layer stack or a volume seamless", declare_seam,
      [](const Options& o) { return run_seam(o.seam); }},
-    {"import", "turn a volume from another program into a far-only set", declare_import,
+    {"import", "turn a volume or a stack of pictures into a far-only set", declare_import,
      [](const Options& o) { return run_import(o.import); }},
     {"inspect", "print what is in a set or a file", declare_inspect,
      [](const Options& o) { return run_inspect(o.inspect); }},
@@ -288,8 +294,10 @@ void check_bake(const CLI::App& app, const Options& o) {
                                               option->get_name()));
         return;
     }
+    if (o.bake.list)
+        return;
     for (const auto& [missing, name] : {std::pair{o.bake.preset.empty(), "PRESET"},
-                                        std::pair{o.bake.output.empty(), "--output"}})
+                                        std::pair{o.bake.output.empty() && !o.bake.dry_run, "--output"}})
         if (missing)
             throw base::Error(base::ExitCode::kUsage, fmt::format("{} is required", name));
 }

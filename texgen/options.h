@@ -46,7 +46,8 @@ struct BakeCommandOptions : CommonOptions {
     bool preview = true;
     bool volume = true;
     bool check_nan = false;
-    bool dry_run = false;
+    bool dry_run = false; ///< `output` may then be empty
+    bool list = false;    ///< of the shipped presets, and nothing else
     bool wrap = true; ///< false: a set that shows its joints, for tests
 };
 
@@ -58,13 +59,16 @@ struct SeamOptions : CommonOptions {
     bool z_up = false;           ///< of a .vdb
 };
 
-/// `texgen import FILE.vdb -o SET`.
+/// `texgen import FILE.vdb -o SET`, `texgen import DIR -o SET`.
 struct ImportOptions : CommonOptions {
-    std::filesystem::path input;
+    std::filesystem::path input; ///< a .vdb, or a directory of pictures with a stack.json
     std::filesystem::path output;
     std::string name;            ///< of the set; empty: the file's own, else its name
     bool z_up = false;
     double scale = 1;            ///< metres a unit of the file
+    double period_m = 0;         ///< of the volume, metres; 0: as the file says
+    double side_m = 0;           ///< of a stack of pictures; 0: as its stack.json says
+    double canopy_m = 0;         ///< likewise
     double density = 1;          ///< factor on the density
     int size = 0;                ///< texels a side at level 0; 0: the power of two nearest to the voxels
     int layers = 16;

@@ -2,10 +2,10 @@
 #include "texgen/parallel.h"
 
 #include <atomic>
-
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <vector>
 
 namespace sward::texgen {
 
@@ -13,24 +13,33 @@ void parallel_for(std::size_t count, int threads,
                   const std::function<void(std::size_t, int)>& work) {
     const int workers =
         static_cast<int>(std::min(static_cast<std::size_t>(std::max(threads, 1)), count));
-    if (workers == 0)
-        return;
-    // Else TBB never starts more threads than cores, whatever the arena holds.
-    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
-                                      static_cast<std::size_t>(std::max(workers, resolve_threads(0))));
-    tbb::task_arena arena(workers); // one of its own for each call: no task waits on another's worker
     std::atomic<std::size_t> next{0};
-    // Each worker takes the next task itself: TBB would halve the range, and the callers put the longest first.
+    std::mutex guard;
+    std::exception_ptr first;
+    // Each worker takes the next task itself: the callers put the longest first.
     const auto run = [&](int worker) {
         try {
             for (std::size_t task = next++; task < count; task = next++)
                 work(task, worker);
         } catch (...) {
             next = count;
-            throw;
+            const std::lock_guard lock(guard);
+            if (!first)
+                first = std::current_exception();
         }
     };
-    arena.execute([&] { tbb::parallel_for(0, workers, run, tbb::simple_partitioner()); });
+    // Threads of our own: TBB's workers end the program where the system has none left. Here fewer do the work then.
+    std::vector<std::jthread> others;
+    try {
+        for (int worker = 1; worker < workers; ++worker)
+            others.emplace_back(run, worker);
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
+    }
+    run(0);
+    others.clear(); // waits
+    if (first)
+        std::rethrow_exception(first);
 }
 
 } // namespace sward::texgen

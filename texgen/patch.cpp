@@ -7,7 +7,9 @@
 #include <numeric>
 
 #include "base/hash.h"
+#include "base/log.h"
 #include "texgen/parallel.h"
+#include "texgen/patch_size.h"
 
 namespace sward::texgen {
 namespace {
@@ -148,6 +150,27 @@ double curve_length(vec3 v1, vec3 v2) {
     return 2 * (integral(1) - integral(0));
 }
 
+Patch unranked_patch(const Preset& preset, int threads) {
+    const Roots roots = scatter_roots(preset);
+    const std::size_t border = roots.border.size(), each = border + roots.interior.front().size();
+    Patch patch;
+    patch.side_m = preset.side_m;
+    for (const Species& species : preset.species)
+        patch.looks.push_back(appearance(species));
+    patch.blades.resize(each * roots.interior.size());
+    for (std::size_t v = 0; v <= roots.interior.size(); ++v)
+        patch.variant_begin.push_back(static_cast<std::uint32_t>(v * each));
+    constexpr std::size_t kRun = 1024;
+    parallel_for((each + kRun - 1) / kRun, resolve_threads(threads), [&](std::size_t run, int) {
+        for (std::size_t i = run * kRun; i < std::min(each, (run + 1) * kRun); ++i)
+            for (std::size_t v = 0; v < roots.interior.size(); ++v)
+                patch.blades[v * each + i] = i >= border ? grow(preset, roots.interior[v][i - border])
+                                             : v == 0    ? grow(preset, roots.border[i])
+                                                         : patch.blades[i];
+    });
+    return patch;
+}
+
 Patch generate_patch(const Preset& preset, int threads) {
     const Roots roots = scatter_roots(preset);
     const std::size_t border = roots.border.size();
@@ -157,12 +180,15 @@ Patch generate_patch(const Preset& preset, int threads) {
     // The first variant decides the border's ranks; the others fill in around them.
     std::vector<std::int32_t> fixed;
     std::vector<std::uint32_t> order;
+    base::Progress progress("patch", variants.size());
     variants[0] = grow_variant(preset, roots, 0, fixed, order);
+    progress.advance();
     for (const std::uint32_t point : order)
         fixed.push_back(point < border ? static_cast<std::int32_t>(point) : -1);
     parallel_for(variants.size() - 1, resolve_threads(threads), [&](std::size_t v, int) {
         std::vector<std::uint32_t> own;
         variants[v + 1] = grow_variant(preset, roots, v + 1, fixed, own);
+        progress.advance();
     });
     Patch patch;
     patch.side_m = preset.side_m;

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "texgen/preset_fields.h"
 
 namespace sward::texgen {
@@ -238,6 +239,8 @@ Preset parse_preset(const std::string& text, const fs::path& name) {
             ExitCode::kBadInput, name, static_cast<int>(error.source().begin.line), "TOML",
             base::printable(error.description()), "a preset as in docs/texgen.md");
     }
+    if (table.empty())
+        base::log_warning(fmt::format("{}: nothing is set in it: this is plain meadow grass at its full size", base::printable(name.string(), 300)));
     Preset preset = PresetReader(name).read(table);
     check_preset(preset, name);
     return preset;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "texgen/patch_size.h"
 #include "texgen/preset.h"
 
 namespace sward::texgen {
@@ -57,7 +58,7 @@ void check_preset(const Preset& preset, const fs::path& origin) {
                "a power of two from 32 to 2048");
     if (preset.height_map != "none" && height_coding(preset) == shared::kHeightNone)
         refuse(ExitCode::kBadInput, "texture.height_map", preset.height_map, "none, linear or top");
-    if (preset.size >> (preset.levels - 1) < 16)
+    if (preset.size >> (preset.levels - 1) < kLeastLevelTexels)
         refuse(ExitCode::kBadInput, "texture.levels", std::to_string(preset.levels),
                "at least 16 texels a side at the last level");
     for (const Species& species : preset.species) {

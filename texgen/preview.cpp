@@ -11,6 +11,7 @@
 
 #include "assets/assets.h"
 #include "base/hash.h"
+#include "base/log.h"
 #include "shared/shading.h"
 #include "texgen/canvas.h"
 #include "texgen/flat_rays.h"
@@ -202,6 +203,7 @@ Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads
     const double canopy = set.canopy_m;
     const dvec3 eye(0.3, canopy * 3.2, 0.2);
     const double pitch = -0.50, focal = 1.4;
+    base::Progress progress("preview", static_cast<std::size_t>(canvas.height));
     parallel_for(
         static_cast<std::size_t>(canvas.height), resolve_threads(threads),
         [&](std::size_t row, int) {
@@ -222,6 +224,7 @@ Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads
                     canvas.at(x, static_cast<int>(row)) +=
                         colour / static_cast<double>(kSide * kSide);
                 }
+            progress.advance();
         });
     return canvas;
 }

@@ -104,6 +104,10 @@ OverlapCost with_band(const OverlapCost& cost, int middle) {
 
 } // namespace
 
+std::string JointReport::words() const {
+    return interior > 0 ? fmt::format("{:.2f} times the interior's", ratio()) : fmt::format("{:.3g}, the interior has none", joint);
+}
+
 Overlap find_overlap(const OverlapCost& cost, bool closed) {
     // Each has half of the overlap, so that they cannot cross. The outermost columns stay with their side: the joint is
     // then an interior pair of the picture, and so is the overlap's inner end.
@@ -118,7 +122,12 @@ Overlap find_overlap(const OverlapCost& cost, bool closed) {
 
 int SeamCut::of(int side, const std::filesystem::path& what) const {
     const int cut = texels > 0 ? texels : static_cast<int>(std::lround(share * side));
-    if (cut < 3 || side - cut < 2 * cut)
+    const bool wrong = cut < 3 || side - cut < 2 * cut;
+    if (wrong && (texels > 0 || share != SeamCut{}.share))
+        throw base::Error(base::ExitCode::kUsage,
+                          fmt::format("--cut: found {} of {}'s {} texels, expected 3 to {}: a third of the side", cut,
+                                      base::printable(what.string(), 300), side, side / 3));
+    if (wrong)
         throw base::input_error(base::ExitCode::kBadInput, what, 0, "cut",
                                 fmt::format("{} of {} texels", cut, side),
                                 fmt::format("3 to {}: a third of the side", side / 3));

@@ -46,7 +46,8 @@ struct SeamCut {
     double share = 0.125; ///< of the side
     int texels = 0;       ///< instead, when above 0
 
-    /// Throws base::Error(kBadInput) naming `what` when what is left is under twice the cut or the cut under 3.
+    /// Throws base::Error when what is left is under twice the cut or the cut under 3: kUsage, or kBadInput naming `what` where the
+    /// cut is nobody's wish.
     [[nodiscard]] int of(int side, const std::filesystem::path& what) const;
 };
 
@@ -54,6 +55,7 @@ struct SeamCut {
 struct JointReport {
     double joint = 0;    ///< mean gradient across the joint, the larger of both axes
     double interior = 0; ///< median over the interior's columns and rows of the same mean gradient
+    [[nodiscard]] std::string words() const; ///< "1.30 times the interior's"
     [[nodiscard]] double ratio() const { return interior > 0 ? joint / interior : joint > 0 ? 1e9 : 0; }
 };
 

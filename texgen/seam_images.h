@@ -15,7 +15,7 @@ struct LayerStack {
     std::vector<assets::LayerImage> images;
 };
 
-/// `input`: a directory (its PNG, TIFF and EXR files, by name with numbers in order), a pattern ("layer.%04d.png", from
+/// `input`: a directory (the layers of its stack.json, else its PNG, TIFF and EXR files, by name with numbers in order), a pattern ("layer.%04d.png", from
 /// the least number that exists on, without gaps), or one picture. Throws base::Error: kIo, kBadInput, kOverLimit.
 [[nodiscard]] LayerStack read_stack(const std::filesystem::path& input);
 

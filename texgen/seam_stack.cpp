@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "texgen/seam_images.h"
+#include "texgen/stack_json.h"
 
 namespace sward::texgen {
 namespace {
@@ -52,6 +53,11 @@ bool natural_before(const std::string& a, const std::string& b) {
 
 std::vector<fs::path> in_directory(const fs::path& directory) {
     std::vector<fs::path> files;
+    if (const auto described = read_stack_json(directory)) {
+        for (const StackLayer& layer : described->layers)
+            files.push_back(directory / layer.file);
+        return files;
+    }
     for (const auto& entry : fs::directory_iterator(directory)) {
         std::string extension = entry.path().extension().string();
         std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });

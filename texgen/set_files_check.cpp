@@ -56,6 +56,21 @@ FileEntry entry_of(const fs::path& path, const std::string& name, const json& va
     return {name, value["bytes"].get<std::uint64_t>(), value["sha256"].get<std::string>()};
 }
 
+bool is_our_name(const std::string& name) {
+    const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
+    return texture || name == grass::kFarLightFile || name == grass::kFarLightPicture || name == grass::kBladesFile ||
+           name == grass::kVolumeFile || name == grass::kPreviewFile;
+}
+
+bool is_unchanged(const fs::path& directory, const FileEntry& entry) {
+    try {
+        (void)checked_file(directory, entry);
+        return true;
+    } catch (const base::Error&) {
+        return false;
+    }
+}
+
 } // namespace
 
 std::vector<FileEntry> listed_files(const fs::path& directory) {
@@ -105,13 +120,12 @@ std::vector<std::string> foreign_files(const fs::path& directory) {
         entries = listed_files(directory);
     } catch (const base::Error&) { // none, or damaged: what looks like ours may still be replaced
     }
+    // A listing alone makes no file ours: it must be the one that was written.
+    std::erase_if(entries, [&](const FileEntry& entry) { return !is_our_name(entry.name) && !is_unchanged(directory, entry); });
     std::vector<std::string> names = unlisted_files(directory, entries);
     // A person's own file says more than a folder beside it.
     std::ranges::stable_partition(names, [&](const std::string& name) { return fs::is_regular_file(directory / name); });
-    std::erase_if(names, [](const std::string& name) {
-        const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
-        return texture || name.starts_with("far.") || name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;
-    });
+    std::erase_if(names, is_our_name);
     return names;
 }
 

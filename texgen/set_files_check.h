@@ -19,8 +19,8 @@ namespace sward::texgen {
 [[nodiscard]] std::vector<std::byte> checked_file(const std::filesystem::path& directory,
                                                   const FileEntry& entry);
 
-/// Names in the directory that no set of ours has: neither listed in its set.json, which may be damaged, nor of the
-/// form of our files.
+/// Names in the directory that no set of ours has: neither listed in its set.json, which may be damaged, with the size and hash that
+/// they have, nor of the form of our files.
 [[nodiscard]] std::vector<std::string> foreign_files(const std::filesystem::path& directory);
 
 /// Names in the directory that set.json does not list, sorted.

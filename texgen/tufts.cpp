@@ -28,6 +28,42 @@ double edge_distance(double x, double z, double side) {
     return std::min(std::min(x, side - x), std::min(z, side - z));
 }
 
+/// Centres by cells of a toroidal grid, so that a dart asks its neighbours alone.
+class CentreGrid {
+public:
+    /// `disk`: the largest that near() is asked for.
+    CentreGrid(double side, double disk)
+        : side_(side), cells_(std::clamp(static_cast<int>(side / disk), 1, 512)),
+          buckets_(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_)) {}
+
+    void add(const Centre& c) { bucket(cell(c.x), cell(c.z)).push_back(c); }
+
+    [[nodiscard]] bool near(const Centre& c, double disk) {
+        if (cells_ < 3) // the rings of cells would visit some twice: harmless, but no gain either
+            return std::ranges::any_of(buckets_, [&](const auto& b) { return any(b, c, disk); });
+        for (int dz = -1; dz <= 1; ++dz)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (any(bucket(cell(c.x) + dx, cell(c.z) + dz), c, disk))
+                    return true;
+        return false;
+    }
+
+private:
+    [[nodiscard]] int cell(double v) const { return std::clamp(static_cast<int>(v / side_ * cells_), 0, cells_ - 1); }
+    std::vector<Centre>& bucket(int x, int z) {
+        return buckets_[static_cast<std::size_t>((z + cells_) % cells_ * cells_ + (x + cells_) % cells_)];
+    }
+    [[nodiscard]] bool any(const std::vector<Centre>& centres, const Centre& c, double disk) const {
+        return std::ranges::any_of(centres, [&](const Centre& o) {
+            return std::hypot(wrap_distance(c.x - o.x, side_), wrap_distance(c.z - o.z, side_)) < disk;
+        });
+    }
+
+    double side_;
+    int cells_;
+    std::vector<std::vector<Centre>> buckets_;
+};
+
 class Scatter {
 public:
     /// `first_id`: of this species' first root.
@@ -105,17 +141,17 @@ private:
                      std::vector<Centre>& centres) const {
         double disk = std::sqrt(0.68 * side_ * side_ / static_cast<double>(tufts_));
         const double width = side_ - 2 * rim;
+        CentreGrid grid(side_, disk);
+        for (const Centre& c : centres)
+            grid.add(c);
         std::uint64_t dart = 0;
         int misses = 0;
         for (std::size_t placed = 0; placed < count;) {
             const Centre c{rim + unit(stream, 2 * dart) * width,
                            rim + unit(stream, 2 * dart + 1) * width};
             ++dart;
-            const bool clear = std::ranges::none_of(centres, [&](const Centre& o) {
-                return std::hypot(wrap_distance(c.x - o.x, side_),
-                                  wrap_distance(c.z - o.z, side_)) < disk;
-            });
-            if (clear) {
+            if (!grid.near(c, disk)) {
+                grid.add(c);
                 centres.push_back(c);
                 ++placed;
                 misses = 0;

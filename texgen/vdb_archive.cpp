@@ -3,15 +3,16 @@
 
 #include <algorithm>
 #include <cstring>
-#include <new>
 #include <sstream>
 
-#include <fmt/format.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/openvdb.h>
+#include <tbb/global_control.h>
 
 #include "base/error.h"
 #include "base/hash.h"
 #include "texgen/vdb_file.h"
-#include "texgen/vdb_reader.h"
+#include "texgen/vdb_grid.h"
 
 namespace sward::texgen {
 namespace {
@@ -47,7 +48,7 @@ void label(openvdb::GridBase& grid, const Volume& volume) {
     grid.setTransform(transform);
     grid.setSaveFloatAsHalf(true);
     grid.setCreator("Sward texgen");
-    grid.insertMeta("period_m", openvdb::FloatMetadata(static_cast<float>(volume.period_m)));
+    grid.insertMeta(kPeriodKey, openvdb::FloatMetadata(static_cast<float>(volume.period_m)));
     grid.insertMeta("preset", openvdb::StringMetadata(volume.preset));
     grid.insertMeta("seed", openvdb::Int64Metadata(static_cast<std::int64_t>(volume.set_seed)));
     grid.insertMeta("format_version", openvdb::Int32Metadata(volume.format_version));
@@ -76,15 +77,65 @@ openvdb::GridBase::Ptr vector_grid(const char* name, const Volume& volume, const
     return grid;
 }
 
-} // namespace
-
-// ---- Writing ----
-
+/// The file's bytes, with the offsets that let tools read grid by grid (io::Stream leaves them out, io::File writes
+/// past full disks). The random tag in the header becomes one of the content: equal grids give equal bytes.
 std::vector<std::byte> encode_grids(const openvdb::GridPtrVec& grids) {
+    // OpenVDB counts with TBB, whose threads end the program where the system has none left.
+    const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
     const std::string text = StreamArchive().bytes(grids);
     const auto* raw = reinterpret_cast<const std::byte*>(text.data());
     return {raw, raw + text.size()};
 }
+
+openvdb::math::Transform::Ptr transform_of(const VdbTransform& t) {
+    using openvdb::math::Transform;
+    const double voxel = t.at(0, 0);
+    bool cubic = voxel > 0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            cubic &= t.at(i, j) == (i == j ? voxel : 0.0);
+    if (!cubic)
+        return Transform::createLinearTransform(openvdb::Mat4d(t.m.data()));
+    const auto out = Transform::createLinearTransform(voxel);
+    out->postTranslate({t.at(3, 0), t.at(3, 1), t.at(3, 2)});
+    return out;
+}
+
+/// The metadata as it stood; what does not fit its type is left out.
+void copy_meta(const SparseGrid& from, openvdb::GridBase& to) {
+    for (const VdbMeta& m : from.meta) {
+        if (!openvdb::Metadata::isRegisteredType(m.type))
+            continue;
+        const std::string text(reinterpret_cast<const char*>(m.value.data()), m.value.size());
+        if (m.type == openvdb::StringMetadata::staticTypeName()) {
+            to.insertMeta(m.name, openvdb::StringMetadata(text));
+            continue;
+        }
+        const openvdb::Metadata::Ptr value = openvdb::Metadata::createMetadata(m.type);
+        if (value->size() != m.value.size())
+            continue;
+        const auto size = static_cast<std::uint32_t>(m.value.size());
+        std::string sized(sizeof size, 0);
+        std::memcpy(sized.data(), &size, sizeof size);
+        std::istringstream stream(sized + text, std::ios::binary);
+        value->read(stream);
+        to.insertMeta(m.name, *value);
+    }
+}
+
+/// A grid of the voxels that `moves` brings.
+template<typename Grid, typename Value>
+openvdb::GridBase::Ptr moved_grid(const SparseGrid& from, std::span<const VdbMove> moves, const Value& value_of) {
+    const auto grid = Grid::create(value_of(from.background.data()));
+    auto to = grid->getAccessor();
+    std::size_t hint = 0;
+    for (const VdbMove& m : moves)
+        if (const SparseGrid::Value v = from.at(m.from, hint); v.active)
+            to.setValue({m.to.x, m.to.y, m.to.z}, value_of(v.at));
+    return grid;
+}
+
+} // namespace
 
 std::vector<std::byte> encode_vdb(const Volume& volume) {
     openvdb::initialize();
@@ -102,131 +153,30 @@ std::vector<std::byte> encode_vdb(const Volume& volume) {
     return encode_grids(grids);
 }
 
-// ---- Reading ----
+struct VdbBuilder::State {
+    openvdb::GridPtrVec grids;
+};
 
-VdbReader::VdbReader(std::span<const std::byte> bytes, std::filesystem::path name)
-    : name_(std::move(name)), bytes_(static_cast<std::int64_t>(bytes.size())), buffer_(bytes), stream_(&buffer_) {
-    static constexpr unsigned char kMagic[] = {0x20, 'B', 'D', 'V', 0, 0, 0, 0};
-    if (bytes.size() < sizeof kMagic || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
-        refuse("format", "something else", "an OpenVDB file");
-    openvdb::initialize();
-    // A short read must not leave values as they were.
-    stream_.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
-    guarded([&] { parse_table(); });
-}
+VdbBuilder::VdbBuilder() : state_(std::make_unique<State>()) { openvdb::initialize(); }
+VdbBuilder::~VdbBuilder() = default;
 
-void VdbReader::refuse(const std::string& what, const std::string& found, const std::string& expected) const {
-    throw base::input_error(base::ExitCode::kBadInput, name_, 0, what, found, expected);
-}
-void VdbReader::over(const std::string& what, const std::string& found, const std::string& expected) const {
-    throw base::input_error(base::ExitCode::kOverLimit, name_, 0, what, found, expected);
-}
-
-template<typename Act> void VdbReader::guarded(const Act& act) const {
-    try {
-        act();
-    } catch (const base::Error&) {
-        throw;
-    } catch (const std::ios_base::failure&) {
-        refuse("content", "an end before its time", "a whole OpenVDB file");
-    } catch (const std::bad_alloc&) {
-        over("content", "more than memory holds", "a smaller volume");
-    } catch (const std::exception& error) {
-        refuse("content", base::printable(error.what()), "a whole OpenVDB file");
-    }
+void VdbBuilder::add_moved(const SparseGrid& from, std::span<const VdbMove> moves, double period) {
+    // What is below 0 by rounding is written as 0: a reader would have to ask what a negative density means.
+    const bool fog = from.name == "density";
+    const openvdb::GridBase::Ptr grid =
+        from.components == 1
+            ? moved_grid<openvdb::FloatGrid>(from, moves, [fog](const float* v) { return fog ? std::max(*v, 0.0f) : *v; })
+            : moved_grid<openvdb::Vec3SGrid>(from, moves, [](const float* v) { return openvdb::Vec3f(v[0], v[1], v[2]); });
+    copy_meta(from, *grid);
+    grid->setName(from.name);
+    grid->setTransform(transform_of(from.transform));
+    grid->setSaveFloatAsHalf(from.half);
+    grid->insertMeta(kPeriodKey, openvdb::FloatMetadata(static_cast<float>(period)));
+    state_->grids.push_back(grid);
 }
 
-void VdbReader::parse_table() {
-    readHeader(stream_);
-    if (!inputHasGridOffsets())
-        refuse("header", "a stream without offsets", "a file that OpenVDB's io::File wrote");
-    state_.reset(new openvdb::io::StreamMetadata);
-    openvdb::io::setStreamMetadataPtr(stream_, state_, false);
-    setFormatVersion(stream_);
-    setLibraryVersion(stream_);
-    setDataCompression(stream_);
-    openvdb::MetaMap().readMeta(stream_);
-    const std::int32_t count = readGridCount(stream_);
-    if (count < 1)
-        refuse("grids", std::to_string(count), "at least one");
-    if (count > kMaxVdbGrids)
-        over("grids", std::to_string(count), fmt::format("at most {}", kMaxVdbGrids));
-    for (std::int32_t i = 0; i < count; ++i) {
-        openvdb::io::GridDescriptor grid;
-        try {
-            grid.read(stream_);
-        } catch (const openvdb::LookupError&) { // a type that this library does not know; its offsets come next
-            std::int64_t offsets[3];
-            stream_.read(reinterpret_cast<char*>(offsets), sizeof offsets);
-            grid.setGridPos(offsets[0]);
-            grid.setBlockPos(offsets[1]);
-            grid.setEndPos(offsets[2]);
-        }
-        check(grid, stream_.tellg());
-        table_.push_back(grid);
-        grid.seekToEnd(stream_);
-    }
-}
-
-void VdbReader::check(const openvdb::io::GridDescriptor& grid, std::int64_t from) const {
-    const std::string name = "grid " + base::printable(grid.gridName());
-    if (grid.getGridPos() < from || grid.getBlockPos() < grid.getGridPos() || grid.getEndPos() < grid.getBlockPos())
-        refuse(name + ": offsets", fmt::format("{}, {}, {}", grid.getGridPos(), grid.getBlockPos(), grid.getEndPos()),
-               "rising numbers");
-    if (grid.getEndPos() > bytes_)
-        refuse(name, fmt::format("an end at byte {} of {}", grid.getEndPos(), bytes_), "a whole file");
-}
-
-bool VdbReader::is_scalar(const openvdb::io::GridDescriptor& grid) {
-    return grid.gridType() == openvdb::FloatGrid::gridType();
-}
-bool VdbReader::is_vector(const openvdb::io::GridDescriptor& grid) {
-    return grid.gridType() == openvdb::Vec3SGrid::gridType();
-}
-
-int VdbReader::find(const std::string& name) const {
-    for (std::size_t i = 0; i < table_.size(); ++i)
-        if (table_[i].gridName() == name)
-            return static_cast<int>(i);
-    return -1;
-}
-
-openvdb::GridBase::Ptr VdbReader::load(int index) {
-    const openvdb::io::GridDescriptor& entry = table_[static_cast<std::size_t>(index)];
-    const std::string name = "grid " + base::printable(entry.gridName());
-    if (entry.isInstance())
-        refuse(name, "an instance of another grid's tree", "a tree of its own: save without instancing");
-    if (!is_scalar(entry) && !is_vector(entry))
-        refuse(name, base::printable(entry.gridType()), "single floats or vectors of three");
-    const openvdb::GridBase::Ptr grid = openvdb::GridBase::createGrid(entry.gridType());
-    grid->setName(entry.gridName());
-    guarded([&] {
-        stream_.clear();
-        entry.seekToGrid(stream_);
-        grid->setSaveFloatAsHalf(entry.saveFloatAsHalf());
-        readGridCompression(stream_);
-        grid->readMeta(stream_);
-        grid->removeMeta(openvdb::GridBase::META_FILE_DELAYED_LOAD);
-        state_->gridMetadata() = static_cast<openvdb::MetaMap&>(*grid);
-        grid->readTransform(stream_);
-        grid->readTopology(stream_);
-        check_topology(*grid);
-        grid->readBuffers(stream_);
-    });
-    grid->setName(openvdb::io::GridDescriptor::stripSuffix(entry.gridName()));
-    return grid;
-}
-
-void VdbReader::check_topology(const openvdb::GridBase& grid) const {
-    const std::string name = "grid " + base::printable(grid.getName());
-    const std::uint64_t active = grid.activeVoxelCount();
-    const std::uint64_t stored = std::uint64_t{grid.constBaseTree().leafCount()} * 512;
-    if (std::max(active, stored) > kMaxVdbVoxels)
-        over(name, fmt::format("{} voxels", std::max(active, stored)), fmt::format("at most {}", kMaxVdbVoxels));
-    const openvdb::Coord size = grid.evalActiveVoxelBoundingBox().dim();
-    if (active > 0 && std::max({size.x(), size.y(), size.z()}) > kMaxVdbSide)
-        over(name, fmt::format("a box of {} x {} x {} voxels", size.x(), size.y(), size.z()),
-             fmt::format("at most {} a side", kMaxVdbSide));
+std::vector<std::byte> VdbBuilder::bytes() const {
+    return encode_grids(state_->grids);
 }
 
 } // namespace sward::texgen

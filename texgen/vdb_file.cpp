@@ -4,22 +4,23 @@
 #include <algorithm>
 #include <climits>
 #include <cmath>
+#include <cstring>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
 #include "texgen/vdb_reader.h"
+#include "texgen/vdb_writer.h"
 
 namespace sward::texgen {
 namespace {
 
-using openvdb::Coord;
-using openvdb::FloatGrid;
-using openvdb::Vec3SGrid;
+constexpr float kLeastDensity = 1e-12f; // denormals and the like
 
-constexpr const char* kPeriodKey = "period_m";
+bool is_rounded_zero(float v) { return v != 0 && v < kLeastDensity; }
 
 /// Index to world of a grid that only scales (alike on all axes) and shifts.
 struct Placement {
@@ -31,26 +32,37 @@ struct Placement {
     }
 };
 
-std::string printed(const Coord& c) {
-    return fmt::format("({}, {}, {})", c.x(), c.y(), c.z());
+/// Below 0 by rounding: a part of the largest value. What lies further below is no fog.
+constexpr float kRoundedBelow = 1e-3f;
+
+std::string printed(const glm::ivec3& c) {
+    return fmt::format("({}, {}, {})", c.x, c.y, c.z);
 }
 
-bool finite(float v) { return std::isfinite(v); }
-bool finite(const openvdb::Vec3f& v) {
-    return std::isfinite(v.x()) && std::isfinite(v.y()) && std::isfinite(v.z());
+std::string shown(const SparseGrid& grid) {
+    return "grid " + base::printable(grid.name);
 }
 
-/// visit(coord, value) for every active voxel, those of active tiles too.
-template<typename Grid, typename Visit> void for_active(const Grid& grid, const Visit& visit) {
-    for (auto it = grid.cbeginValueOn(); it; ++it) {
-        if (it.isVoxelValue()) {
-            visit(it.getCoord(), *it);
-            continue;
-        }
-        const openvdb::CoordBBox box = it.getBoundingBox();
-        for (auto c = box.begin(); c != box.end(); ++c)
-            visit(*c, *it);
-    }
+bool finite(const float* v, int components) {
+    return std::all_of(v, v + components, [](float x) { return std::isfinite(x); });
+}
+
+/// Least density that is not taken for 0; refuses what no fog can hold.
+void check_density(const VdbReader& reader, const SparseGrid& grid) {
+    if (grid.is_level_set())
+        reader.refuse(shown(grid), "a level set (distances)",
+                      "a fog volume: convert it (Houdini: Convert VDB; Blender: Mesh to Volume)");
+    float most = 0;
+    grid.for_active([&](const glm::ivec3&, const float* v) { most = std::max(most, *v); });
+    std::size_t rounded = 0;
+    grid.for_active([&](const glm::ivec3& at, const float* v) {
+        if (!std::isfinite(*v) || *v < -kRoundedBelow * most)
+            reader.refuse(shown(grid) + ": voxel " + printed(at), fmt::format("{}", *v), "0 or more (a level set?)");
+        rounded += is_rounded_zero(*v) ? 1 : 0;
+    });
+    if (rounded > 0)
+        base::log_warning(fmt::format("{}: {}: {} voxels of a tiny or slightly negative density are taken as 0",
+                                      reader.file(), shown(grid), rounded));
 }
 
 /// A voxel of the density on its way to its order.
@@ -62,7 +74,6 @@ struct Found {
 /// The file's axes to ours: z up becomes y up by a quarter turn about x.
 glm::ivec3 turned(glm::ivec3 v, bool z_up) { return z_up ? glm::ivec3(v.x, v.z, -v.y) : v; }
 glm::ivec3 turned_back(glm::ivec3 v, bool z_up) { return z_up ? glm::ivec3(v.x, -v.z, v.y) : v; }
-glm::ivec3 vec(const Coord& c) { return {c.x(), c.y(), c.z()}; }
 
 /// The steps of read_volume.
 class VolumeReading {
@@ -73,33 +84,28 @@ public:
         read_density();
         if (!query_.companions)
             return std::move(out_);
-        read_vectors("tangent", out_.tangent);
+        read_vectors({"tangent"}, out_.tangent);
         for (glm::vec3& t : out_.tangent) {
             if (query_.z_up)
                 t = {t.x, t.z, -t.y};
             const float length = glm::length(t);
             t = length > 1e-6f ? t / length : glm::vec3(0, 1, 0);
         }
-        read_vectors(reader_.find("colour") >= 0 ? "colour" : "Cd", out_.colour);
+        read_vectors({"colour", "color", "Cd"}, out_.colour);
         read_scalars("rank", out_.rank);
         read_scalars("seed", out_.seed);
         return std::move(out_);
     }
 
 private:
-    Placement placement_of(const openvdb::GridBase& grid) const {
-        const std::string name = "grid " + base::printable(grid.getName()) + ": transform";
-        if (!grid.transform().isLinear())
-            reader_.refuse(name, "a frustum", "a scale and a shift");
-        const openvdb::Mat4d m = grid.transform().baseMap()->getAffineMap()->getMat4();
-        const Placement p{m(0, 0), {m(3, 0), m(3, 1), m(3, 2)}};
+    Placement placement_of(const SparseGrid& grid) const {
+        const VdbTransform& m = grid.transform;
+        const Placement p{m.at(0, 0), {m.at(3, 0), m.at(3, 1), m.at(3, 2)}};
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-                if (!(std::abs(m(i, j) - (i == j ? p.voxel : 0)) <= 1e-4 * p.voxel))
-                    reader_.refuse(name, "a turn, a shear or unequal axes",
+                if (!(std::abs(m.at(i, j) - (i == j ? p.voxel : 0)) <= 1e-4 * p.voxel))
+                    reader_.refuse(shown(grid) + ": transform", "a turn, a shear or unequal axes",
                                    "cubic voxels along the axes: resample the volume");
-        if (!(p.voxel > 1e-9 && p.voxel < 1e9))
-            reader_.refuse(name, fmt::format("voxels of {}", p.voxel), "a positive size");
         return p;
     }
 
@@ -107,64 +113,69 @@ private:
         const int index = reader_.find("density");
         if (index < 0)
             reader_.refuse("grids", "no \"density\"", "a fog volume of that name");
-        const openvdb::GridBase::Ptr base = reader_.load(index);
-        const auto grid = openvdb::gridPtrCast<FloatGrid>(base);
-        if (!grid)
-            reader_.refuse("grid density", base->valueType(), "single floats");
-        if (grid->getGridClass() == openvdb::GRID_LEVEL_SET)
-            reader_.refuse("grid density", "a level set (distances)",
-                           "a fog volume: convert it (Houdini: Convert VDB; Blender: Mesh to Volume)");
-        placement_ = placement_of(*grid);
+        const SparseGrid grid = reader_.load(index);
+        if (grid.components != 1)
+            reader_.refuse(shown(grid), "vectors of three", "single floats");
+        check_density(reader_, grid);
+        placement_ = placement_of(grid);
         std::vector<Found> found;
-        collect(*grid, found);
-        read_head(*grid);
+        collect(grid, found);
+        read_head(grid);
         place(found);
     }
 
-    void collect(const FloatGrid& grid, std::vector<Found>& found) {
+    void collect(const SparseGrid& grid, std::vector<Found>& found) {
         low_ = glm::ivec3(INT_MAX);
         glm::ivec3 high(INT_MIN);
         std::size_t count = 0;
-        for_active(grid, [&](const Coord& c, float value) {
-            if (!(value >= 0) || !finite(value))
-                reader_.refuse("grid density: voxel " + printed(c), fmt::format("{}", value),
-                               "0 or more (a level set?)");
-            if (value == 0)
+        grid.for_active([&](const glm::ivec3& c, const float* value) {
+            if (!(*value >= kLeastDensity))
                 return;
-            const glm::ivec3 at = turned(vec(c), query_.z_up);
+            const glm::ivec3 at = turned(c, query_.z_up);
             low_ = glm::min(low_, at);
             high = glm::max(high, at);
             ++count;
         });
         if (count == 0)
-            reader_.refuse("grid density", "no voxel above 0", "some grass");
+            reader_.refuse(shown(grid), "no voxel above 0", "some grass");
         out_.cells = high - low_ + 1;
         found.reserve(count);
-        for_active(grid, [&](const Coord& c, float value) {
-            if (value == 0)
+        grid.for_active([&](const glm::ivec3& c, const float* value) {
+            if (!(*value >= kLeastDensity))
                 return;
-            const glm::ivec3 at = turned(vec(c), query_.z_up);
-            const glm::u64vec3 k(at - low_);
-            found.push_back({k.y << 32 | k.z << 16 | k.x, value});
+            const glm::u64vec3 k(turned(c, query_.z_up) - low_);
+            found.push_back({k.y << 32 | k.z << 16 | k.x, *value});
         });
         std::ranges::sort(found, {}, &Found::key);
     }
 
-    void read_head(const FloatGrid& grid) {
+    void read_head(const SparseGrid& grid) {
         out_.voxel_m = placement_.voxel * query_.scale;
-        if (const auto m = grid.getMetadata<openvdb::FloatMetadata>(kPeriodKey))
-            out_.period_m = m->value() * query_.scale;
-        if (const auto m = grid.getMetadata<openvdb::Int32Metadata>("format_version"))
-            out_.format_version = m->value();
-        if (const auto m = grid.getMetadata<openvdb::Int64Metadata>("seed"))
-            out_.set_seed = static_cast<std::uint64_t>(m->value());
-        if (const auto m = grid.getMetadata<openvdb::StringMetadata>("preset");
-            m && out_.format_version > 0)
-            out_.preset = m->value().substr(0, 64);
+        float period_m = 0;
+        if (grid.read_meta(kPeriodKey, "float", period_m))
+            out_.period_m = static_cast<double>(period_m) * query_.scale;
+        std::int32_t version = 0;
+        if (grid.read_meta("format_version", "int32", version))
+            out_.format_version = version;
+        std::int64_t seed = 0;
+        if (grid.read_meta("seed", "int64", seed))
+            out_.set_seed = static_cast<std::uint64_t>(seed);
+        if (out_.format_version > 0)
+            out_.preset = grid.text_meta("preset").substr(0, 64);
+        if (query_.period_m > 0)
+            out_.period_m = query_.period_m;
+        set_period();
+    }
+
+    void set_period() {
         const double period = out_.period_m / out_.voxel_m;
         const auto whole = static_cast<int>(std::lround(std::clamp(period, 0.0, 1e6)));
         if (!(std::abs(period - whole) < 0.01) || whole > kMaxVdbSide ||
             whole < std::max(out_.cells.x, out_.cells.z)) {
+            if (query_.period_m > 0)
+                throw base::Error(base::ExitCode::kUsage,
+                                  fmt::format("--period: found {} m, expected a whole number of the volume's voxels of {:.6g} m: {} to {}",
+                                              query_.period_m, out_.voxel_m, std::max(out_.cells.x, out_.cells.z), kMaxVdbSide));
             if (out_.period_m != 0)
                 base::log_warning(fmt::format("{} {} is not a whole number of voxels that holds the volume: "
                                               "it is not used",
@@ -174,9 +185,7 @@ private:
         }
         // A volume that lies inside its period keeps its place.
         const glm::ivec3 high = low_ + out_.cells;
-        const glm::ivec3 keep(low_.x >= 0 && high.x <= whole ? low_.x : 0, 0,
-                              low_.z >= 0 && high.z <= whole ? low_.z : 0);
-        shift_ = keep;
+        shift_ = glm::ivec3(low_.x >= 0 && high.x <= whole ? low_.x : 0, 0, low_.z >= 0 && high.z <= whole ? low_.z : 0);
         out_.cells = {whole, out_.cells.y, whole};
     }
 
@@ -193,41 +202,41 @@ private:
     }
 
     /// take(i, value) with the grid's value at every voxel of the density: the nearest where their voxels differ.
-    template<typename Grid, typename Take> void sample(int index, const Take& take) {
-        const openvdb::GridBase::Ptr base = reader_.load(index);
-        const auto grid = openvdb::gridPtrCast<Grid>(base);
-        const std::string name = "grid " + base::printable(base->getName());
-        if (!grid)
-            reader_.refuse(name, base->valueType(), Grid().valueType());
-        const Placement own = placement_of(*grid);
+    template<typename Take> void sample(int index, int components, const Take& take) {
+        const SparseGrid grid = reader_.load(index);
+        if (grid.components != components)
+            reader_.refuse(shown(grid), grid.components == 1 ? "single floats" : "vectors of three",
+                           components == 1 ? "single floats" : "vectors of three");
+        const Placement own = placement_of(grid);
         const bool same = own.on(placement_);
-        const auto values = grid->getConstAccessor();
+        std::size_t hint = 0;
         for (std::size_t i = 0; i < out_.at.size(); ++i) {
             const VoxelPlace& p = out_.at[i];
             glm::ivec3 c = turned_back(glm::ivec3(p.x, p.y, p.z) + low_, query_.z_up);
-            if (!same)
-                c = glm::ivec3(glm::round((placement_.voxel * glm::dvec3(c) + placement_.origin - own.origin) /
-                                          own.voxel));
-            const auto& value = values.getValue({c.x, c.y, c.z});
-            if (!finite(value))
-                reader_.refuse(name + ": voxel " + printed({c.x, c.y, c.z}), "no finite number", "one");
+            if (!same) {
+                const glm::dvec3 there = (placement_.voxel * glm::dvec3(c) + placement_.origin - own.origin) / own.voxel;
+                c = glm::ivec3(glm::round(glm::clamp(there, -1e9, 1e9)));
+            }
+            const float* value = grid.at(c, hint).at;
+            if (!finite(value, components))
+                reader_.refuse(shown(grid) + ": voxel " + printed(c), "no finite number", "one");
             take(i, value);
         }
     }
 
-    void read_vectors(const char* name, std::vector<glm::vec3>& out) {
-        const int index = reader_.find(name);
-        if (index < 0)
-            return;
-        out.resize(out_.at.size());
-        sample<Vec3SGrid>(index, [&](std::size_t i, const openvdb::Vec3f& v) { out[i] = {v.x(), v.y(), v.z()}; });
+    void read_vectors(std::initializer_list<const char*> names, std::vector<glm::vec3>& out) {
+        for (const char* name : names)
+            if (const int index = reader_.find(name); index >= 0) {
+                out.resize(out_.at.size());
+                return sample(index, 3, [&](std::size_t i, const float* v) { out[i] = {v[0], v[1], v[2]}; });
+            }
     }
     void read_scalars(const char* name, std::vector<float>& out) {
         const int index = reader_.find(name);
         if (index < 0)
             return;
         out.resize(out_.at.size());
-        sample<FloatGrid>(index, [&](std::size_t i, float v) { out[i] = v; });
+        sample(index, 1, [&](std::size_t i, const float* v) { out[i] = *v; });
     }
 
     VdbReader& reader_;
@@ -237,12 +246,45 @@ private:
     Volume out_;
 };
 
+/// The voxels of `grid` that `key` has not, into `others`.
+void note_others(const VdbReader& reader, const SparseGrid& grid, const SparseGrid& key, std::vector<glm::ivec3>& others) {
+    if (!grid.transform.near(key.transform))
+        reader.refuse(shown(grid) + ": transform", "another than " + base::printable(key.name), "the same voxels: resample the volume");
+    if (grid.is_level_set())
+        reader.refuse(shown(grid), "a level set (distances)", "a fog volume");
+    std::size_t hint = 0;
+    grid.for_active([&](const glm::ivec3& c, const float* value) {
+        if (!finite(value, grid.components))
+            reader.refuse(shown(grid) + ": voxel " + printed(c), "no finite number", "one");
+        if (!key.at(c, hint).active)
+            others.push_back(c);
+    });
+}
+
+/// The grid that decides between two voxels.
+int key_of(const VdbReader& reader) {
+    if (const int density = reader.find("density"); density >= 0)
+        return density;
+    const auto scalar = std::ranges::find_if(reader.table(), &VdbEntry::is_scalar);
+    if (scalar == reader.table().end())
+        reader.refuse("grids", "no grid of floats", "a fog volume");
+    return static_cast<int>(scalar - reader.table().begin());
+}
+
 } // namespace
+
+std::vector<std::byte> read_vdb_file(const std::filesystem::path& path) {
+    // A large file of another kind is told by its first bytes.
+    const std::vector<std::byte> head = base::read_head(path, 8);
+    if (head.size() < 8 || std::memcmp(head.data(), " BDV\0\0\0\0", 8) != 0)
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "format", "something else", "an OpenVDB file");
+    return base::read_file(path, kMaxVdbBytes);
+}
 
 VdbFile::VdbFile(std::span<const std::byte> bytes, std::filesystem::path name)
     : reader_(std::make_unique<VdbReader>(bytes, std::move(name))) {
-    for (const openvdb::io::GridDescriptor& grid : reader_->table())
-        infos_.push_back({grid.gridName(), grid.gridType()});
+    for (const VdbEntry& grid : reader_->table())
+        infos_.push_back({grid.name, grid.type});
 }
 VdbFile::~VdbFile() = default;
 
@@ -252,89 +294,48 @@ Volume VdbFile::read_volume(const VolumeQuery& query) const {
 
 VdbCells VdbFile::read_cells() const {
     VdbReader& reader = *reader_;
-    int key = reader.find("density");
-    for (std::size_t i = 0; key < 0 && i < reader.size(); ++i)
-        if (VdbReader::is_scalar(reader.table()[i]))
-            key = static_cast<int>(i);
-    if (key < 0)
-        reader.refuse("grids", "no grid of floats", "a fog volume");
-    const openvdb::GridBase::Ptr base = reader.load(key);
-    const auto density = openvdb::gridPtrCast<FloatGrid>(base);
-    if (!density)
-        reader.refuse("grid " + base::printable(base->getName()), base->valueType(), "single floats");
+    const int index = key_of(reader);
+    const SparseGrid key = reader.load(index);
+    if (key.components != 1)
+        reader.refuse(shown(key), "vectors of three", "single floats");
+    if (key.name == "density" || key.is_level_set())
+        check_density(reader, key);
     VdbCells out;
-    out.key_grid = density->getName();
-    const auto voxel = density->voxelSize();
-    out.voxel = {voxel.x(), voxel.y(), voxel.z()};
-    if (const auto m = density->getMetadata<openvdb::FloatMetadata>(kPeriodKey))
-        out.period = m->value();
-    for_active(*density, [&](const Coord& c, float value) {
-        if (!finite(value))
-            reader.refuse("grid " + out.key_grid + ": voxel " + printed(c), "no finite number", "one");
-        out.at.push_back(vec(c));
-        out.key.push_back(value);
+    out.key_grid = key.name;
+    out.voxel = {key.transform.voxel(0), key.transform.voxel(1), key.transform.voxel(2)};
+    float period = 0;
+    if (key.read_meta(kPeriodKey, "float", period))
+        out.period = period;
+    key.for_active([&](const glm::ivec3& c, const float* value) {
+        if (!std::isfinite(*value))
+            reader.refuse(shown(key) + ": voxel " + printed(c), "no finite number", "one");
+        out.at.push_back(c);
+        out.key.push_back(*value);
     });
     std::vector<glm::ivec3> others;
-    const auto note = [&](const auto& grid) {
-        if (grid.transform() != density->transform())
-            reader.refuse("grid " + base::printable(grid.getName()) + ": transform", "another than " + out.key_grid,
-                          "the same voxels: resample the volume");
-        const auto on = density->getConstAccessor();
-        for_active(grid, [&](const Coord& c, const auto& value) {
-            if (!finite(value))
-                reader.refuse("grid " + base::printable(grid.getName()) + ": voxel " + printed(c), "no finite number", "one");
-            if (!on.isValueOn(c))
-                others.push_back(vec(c));
-        });
-    };
-    for (std::size_t i = 0; i < reader.size(); ++i) {
-        const auto& entry = reader.table()[i];
-        if (static_cast<int>(i) == key || !(VdbReader::is_scalar(entry) || VdbReader::is_vector(entry)))
-            continue;
-        const openvdb::GridBase::Ptr grid = reader.load(static_cast<int>(i));
-        if (VdbReader::is_scalar(entry))
-            note(static_cast<const FloatGrid&>(*grid));
-        else
-            note(static_cast<const Vec3SGrid&>(*grid));
+    for (std::size_t i = 0; i < reader.table().size(); ++i) {
+        const VdbEntry& entry = reader.table()[i];
+        if (static_cast<int>(i) != index && (entry.is_scalar() || entry.is_vector()))
+            note_others(reader, reader.load(static_cast<int>(i)), key, others);
     }
-    const auto before = [](const glm::ivec3& a, const glm::ivec3& b) {
-        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-    };
-    std::sort(others.begin(), others.end(), before);
-    others.erase(std::unique(others.begin(), others.end()), others.end());
+    const auto place = [](const glm::ivec3& a) { return std::tuple(a.x, a.y, a.z); };
+    std::ranges::sort(others, {}, place);
+    others.erase(std::ranges::unique(others).begin(), others.end());
     out.at.insert(out.at.end(), others.begin(), others.end());
     out.key.resize(out.at.size(), 0);
     return out;
 }
 
 std::vector<std::byte> VdbFile::moved(std::span<const VdbMove> moves, double period) const {
-    openvdb::GridPtrVec grids;
-    const auto move_all = [&](const auto& grid) {
-        const auto out = grid.copyWithNewTree();
-        auto to = out->getAccessor();
-        const auto from = grid.getConstAccessor();
-        for (const VdbMove& m : moves) {
-            const Coord c(m.from.x, m.from.y, m.from.z);
-            if (from.isValueOn(c))
-                to.setValue({m.to.x, m.to.y, m.to.z}, from.getValue(c));
-        }
-        out->insertMeta(kPeriodKey, openvdb::FloatMetadata(static_cast<float>(period)));
-        grids.push_back(out);
-    };
-    for (std::size_t i = 0; i < reader_->size(); ++i) {
-        const auto& entry = reader_->table()[i];
-        if (!VdbReader::is_scalar(entry) && !VdbReader::is_vector(entry)) {
-            base::log_warning(fmt::format("grid {} of type {} is left out", base::printable(entry.gridName()),
-                                          base::printable(entry.gridType())));
-            continue;
-        }
-        const openvdb::GridBase::Ptr grid = reader_->load(static_cast<int>(i));
-        if (VdbReader::is_scalar(entry))
-            move_all(static_cast<const FloatGrid&>(*grid));
+    VdbBuilder builder;
+    for (std::size_t i = 0; i < reader_->table().size(); ++i) {
+        const VdbEntry& entry = reader_->table()[i];
+        if (entry.is_scalar() || entry.is_vector())
+            builder.add_moved(reader_->load(static_cast<int>(i)), moves, period);
         else
-            move_all(static_cast<const Vec3SGrid&>(*grid));
+            base::log_warning(fmt::format("grid {} of type {} is left out", base::printable(entry.name), base::printable(entry.type)));
     }
-    return encode_grids(grids);
+    return builder.bytes();
 }
 
 } // namespace sward::texgen

@@ -26,10 +26,16 @@ struct VdbGridInfo {
     std::string type; ///< as OpenVDB names it: "Tree_float_5_4_3", ...
 };
 
+inline constexpr const char* kPeriodKey = "period_m"; ///< metadata of a grid, in its units
+
+/// The bytes of an OpenVDB file; by its first ones before the rest is read. Throws base::Error: kIo, kBadInput, kOverLimit.
+[[nodiscard]] std::vector<std::byte> read_vdb_file(const std::filesystem::path& path);
+
 /// How a volume is taken from a file.
 struct VolumeQuery {
     bool z_up = false;     ///< the file's z is up (Blender); else its y
     double scale = 1;      ///< metres a unit of the file
+    double period_m = 0;    ///< instead of the metadata's, when above 0
     bool companions = true; ///< tangent, colour, rank and seed beside the density
 };
 
@@ -49,8 +55,7 @@ struct VdbMove {
 
 class VdbReader;
 
-/// An OpenVDB file in memory, read grid by grid. The library trusts what it reads: the header, the table of grids, their
-/// offsets, boxes and counts are checked first, and every read past the end throws. Throws base::Error: kBadInput,
+/// An OpenVDB file in memory, read grid by grid and by us: the library trusts what it reads. Throws base::Error: kBadInput,
 /// kOverLimit.
 class VdbFile {
 public:
@@ -61,8 +66,9 @@ public:
 
     [[nodiscard]] const std::vector<VdbGridInfo>& grids() const { return infos_; }
 
-    /// The fog volume `density` and what stands beside it, `Cd` for `colour`. Voxels of density 0 are left out. Refuses
-    /// level sets, negative and non-finite values, and transforms other than a scale and a shift.
+    /// The fog volume `density` and what stands beside it, `color` or `Cd` for `colour`. Voxels of density 0 are left out, and
+    /// with a warning those that are not 0 by rounding alone. Refuses level sets, values below that, non-finite ones, and
+    /// transforms other than a scale and a shift. kUsage where `period_m` does not fit.
     [[nodiscard]] Volume read_volume(const VolumeQuery& query) const;
 
     /// The active voxels of all float and vec3 grids, by rising x, y, z. Refuses level sets, and grids whose voxels do

@@ -1,82 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenVDB's side of VdbFile. For vdb_archive.cpp and vdb_file.cpp alone: OpenVDB is slow to compile, so no other file may
-// include it.
+// The bytes of an OpenVDB file, read by us: every length, count and offset is held against what is left of the file, and
+// against the limits, before anything is taken or unpacked.
 #pragma once
 
+#include <cstring>
 #include <filesystem>
-#include <istream>
 #include <span>
-#include <streambuf>
 #include <string>
 #include <vector>
 
-#include <openvdb/io/Archive.h>
-#include <openvdb/io/GridDescriptor.h>
-#include <openvdb/openvdb.h>
+#include "texgen/vdb_grid.h"
 
 namespace sward::texgen {
 
-/// The file's bytes, with the offsets that let tools read grid by grid (io::Stream leaves them out, io::File writes
-/// past full disks). The random tag in the header becomes one of the content: equal grids give equal bytes.
-[[nodiscard]] std::vector<std::byte> encode_grids(const openvdb::GridPtrVec& grids);
-
-
-/// Bytes as a stream buffer that seeks.
-class ByteBuffer : public std::streambuf {
+/// A place in the file. Reads past the end throw base::Error(kBadInput) that names it.
+class VdbCursor {
 public:
-    explicit ByteBuffer(std::span<const std::byte> bytes) {
-        char* begin = const_cast<char*>(reinterpret_cast<const char*>(bytes.data())); // never written to
-        setg(begin, begin, begin + bytes.size());
-    }
+    VdbCursor(std::span<const std::byte> bytes, std::filesystem::path name) : name_(std::move(name)), bytes_(bytes) {}
 
-protected:
-    pos_type seekoff(off_type offset, std::ios_base::seekdir from, std::ios_base::openmode) override {
-        const off_type base = from == std::ios_base::beg   ? 0
-                              : from == std::ios_base::cur ? gptr() - eback()
-                                                           : egptr() - eback();
-        return seekpos(base + offset, std::ios_base::in);
+    [[nodiscard]] std::uint64_t at() const { return at_; }
+    [[nodiscard]] std::uint64_t left() const { return bytes_.size() - at_; }
+    [[nodiscard]] const std::filesystem::path& name() const { return name_; }
+    void seek(std::uint64_t place);
+    [[nodiscard]] std::span<const std::byte> take(std::uint64_t count);
+    template<typename T> [[nodiscard]] T number() {
+        T value;
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
     }
-    pos_type seekpos(pos_type place, std::ios_base::openmode) override {
-        if (place < 0 || place > egptr() - eback())
-            return pos_type(off_type(-1));
-        setg(eback(), eback() + static_cast<off_type>(place), egptr());
-        return place;
-    }
+    /// 32 bits of length and the text.
+    [[nodiscard]] std::string text();
+
+    [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) const;
+    [[noreturn]] void over(const std::string& what, const std::string& found, const std::string& expected) const;
+
+private:
+    std::filesystem::path name_;
+    std::span<const std::byte> bytes_;
+    std::uint64_t at_ = 0;
+};
+
+/// What the file's table says of a grid.
+struct VdbEntry {
+    std::string name; ///< as it stands: with the mark of a second grid of the name
+    std::string type; ///< "Tree_float_5_4_3", without the mark of half floats
+    bool half = false;
+    bool instance = false; ///< of another grid's tree
+    std::uint64_t grid_at = 0, block_at = 0, end_at = 0;
+
+    [[nodiscard]] bool is_scalar() const { return type == "Tree_float_5_4_3"; }
+    [[nodiscard]] bool is_vector() const { return type == "Tree_vec3s_5_4_3"; }
 };
 
 /// Parses the header and the table of grids, then reads one grid at a time.
-class VdbReader : private openvdb::io::Archive {
+class VdbReader {
 public:
     VdbReader(std::span<const std::byte> bytes, std::filesystem::path name);
 
-    [[nodiscard]] const std::vector<openvdb::io::GridDescriptor>& table() const { return table_; }
-    [[nodiscard]] std::size_t size() const { return table_.size(); }
-    [[nodiscard]] static bool is_scalar(const openvdb::io::GridDescriptor& grid);
-    [[nodiscard]] static bool is_vector(const openvdb::io::GridDescriptor& grid);
+    [[nodiscard]] const std::vector<VdbEntry>& table() const { return table_; }
     /// Of the grid of that name, or -1.
     [[nodiscard]] int find(const std::string& name) const;
 
-    /// Grid `index` with its voxels. Box and counts are checked before its values are read.
-    [[nodiscard]] openvdb::GridBase::Ptr load(int index);
+    /// Grid `index` with its voxels. Refuses other types than floats and vectors of three, and instances.
+    [[nodiscard]] SparseGrid load(int index);
 
-    [[noreturn]] void refuse(const std::string& what, const std::string& found,
-                             const std::string& expected) const;
-    [[noreturn]] void over(const std::string& what, const std::string& found,
-                           const std::string& expected) const;
+    [[nodiscard]] std::string file() const { return cursor_.name().string(); }
+    [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) const {
+        cursor_.refuse(what, found, expected);
+    }
 
 private:
+    void parse_header();
     void parse_table();
-    void check(const openvdb::io::GridDescriptor& grid, std::int64_t from) const;
-    void check_topology(const openvdb::GridBase& grid) const;
-    /// Runs `act`; what OpenVDB or the stream throws becomes a base::Error.
-    template<typename Act> void guarded(const Act& act) const;
+    [[nodiscard]] std::vector<VdbMeta> read_meta();
+    [[nodiscard]] VdbTransform read_transform(const std::string& grid);
+    [[nodiscard]] VdbTransform read_map(const std::string& grid);
 
-    std::filesystem::path name_;
-    std::int64_t bytes_;
-    ByteBuffer buffer_;
-    std::istream stream_;
-    openvdb::io::StreamMetadata::Ptr state_; // the stream points at this very pointer
-    std::vector<openvdb::io::GridDescriptor> table_;
+    VdbCursor cursor_;
+    std::vector<VdbEntry> table_;
 };
+
+/// Reads a grid's tree from where its nodes stand and, `block_at`, where its leaves' values do: fills `grid`'s background,
+/// leaves, values and tiles. `packing`: the grid's compression flags.
+void read_vdb_tree(VdbCursor& cursor, std::uint64_t block_at, std::uint32_t packing, SparseGrid& grid);
 
 } // namespace sward::texgen

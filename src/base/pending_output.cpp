@@ -10,6 +10,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -198,6 +199,14 @@ void register_pending(const fs::path& temporary) {
     g_pending.emplace(temporary, fd);
 }
 
+/// Gives the lock's handle back; the temporary stays known to the signals' clean-up.
+static void unlock_pending(const fs::path& temporary) {
+    const std::lock_guard lock(g_mutex);
+    const auto it = g_pending.find(temporary);
+    if (it != g_pending.end() && it->second >= 0)
+        ::close(std::exchange(it->second, -1));
+}
+
 void unregister_pending(const fs::path& temporary) {
     const std::lock_guard lock(g_mutex);
     const auto it = g_pending.find(temporary);
@@ -246,8 +255,10 @@ PendingOutput::PendingOutput(fs::path final_path, Kind kind)
 
 PendingOutput::~PendingOutput() {
     std::error_code ignored;
-    if (!committed_)
+    if (!committed_) {
+        unlock_pending(temporary_); // a directory is emptied through a handle, and ours may be the last
         fs::remove_all(temporary_, ignored);
+    }
     unregister_pending(temporary_);
 }
 

@@ -162,7 +162,7 @@ TEST(Seam, TheBoundariesTakeTheFreeWayAndClose) {
 TEST(Seam, RefusesCutsThatLeaveTooLittle) {
     const LayerStack stack = stroke_stack(32, 1, 5);
     for (const SeamCut cut : {SeamCut{.share = 0.5}, SeamCut{.texels = 2}, SeamCut{.texels = 31}, SeamCut{.share = 0.01}})
-        EXPECT_EQ(error_of([&] { (void)seam_stack(stack, cut); }).first, ExitCode::kBadInput);
+        EXPECT_EQ(error_of([&] { (void)seam_stack(stack, cut); }).first, ExitCode::kUsage);
 }
 
 /// A square of upright and leaning strands in a box, cut at its sides.
