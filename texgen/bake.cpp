@@ -66,7 +66,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
             add_blades(patch, v, builder);
         const MarchData data = builder.finish(patch.looks);
         set.march = pack_march(data);
-        set.march.correction = fit_march(data, truth, options.threads);
+        set.march.correction = fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
     }
     {
         const StepTimer timer("far table");

@@ -6,6 +6,7 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <glm/gtc/packing.hpp>
 
 #include "base/error.h"
 
@@ -45,6 +46,18 @@ void look_at_floats(Scan& scan, const grass::TextureArray& array, std::size_t le
     }
 }
 
+void look_at_halves(Scan& scan, const grass::TextureArray& array, std::size_t kind) {
+    for (const std::vector<std::uint8_t>& mip : array.mips) {
+        std::vector<float> values(mip.size() / sizeof(std::uint16_t));
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            std::uint16_t half = 0;
+            std::memcpy(&half, &mip[i * sizeof half], sizeof half);
+            values[i] = glm::unpackHalf1x16(half);
+        }
+        scan.look(values, "density of kind", kind);
+    }
+}
+
 } // namespace
 
 std::size_t check_finite(const grass::GrassSet& set) {
@@ -64,6 +77,11 @@ std::size_t check_finite(const grass::GrassSet& set) {
         look_at_floats(scan, level.layers, k);
         look_at_floats(scan, level.slices, k);
     }
+    scan.look_at(set.march.medium, "medium", 0);
+    scan.look(set.march.correction, "correction", 0);
+    for (std::size_t k = 0; k < set.march.slabs.size(); ++k)
+        look_at_halves(scan, set.march.slabs[k].density, k);
+    look_at_halves(scan, set.march.columns.density, set.march.slabs.size());
     for (std::size_t i = 0; i < set.far.size(); ++i) {
         const grass::FarRow& row = set.far[i];
         const float values[] = {row.elevation_deg, row.coverage,    row.height,

@@ -81,6 +81,25 @@ std::uint64_t peak_of(const Account& a, const BakeOptions& options) {
     return static_cast<std::uint64_t>(std::max(held + a.scratch, held + packing + volume));
 }
 
+/// The far field's files; returns their bytes in memory and on the GPU.
+double add_march(SetReport& r) {
+    double sum = 0;
+    const auto add = [&](const std::string& density, const std::string& fibres, int width, int height, int images) {
+        for (const auto& [name, format] : {std::pair{density, grass::TexelFormat::kRgba16f}, std::pair{fibres, grass::TexelFormat::kRgba8}}) {
+            const std::uint64_t bytes = bytes_of(shape_of(width, height, images, format));
+            r.files.push_back({name, 0, bytes, ""});
+            r.gpu_bytes += bytes;
+            sum += static_cast<double>(bytes);
+        }
+    };
+    const int columns = shared::kMarchTexels >> shared::kColumnBase;
+    add(grass::kColumnsFile, grass::kColumnFibresFile, columns, columns, r.variants * shared::kMarchLayers);
+    for (int k = 0; k < shared::kMarchSets; ++k)
+        add(grass::slabs_file(k), grass::slab_fibres_file(k), shared::kMarchTexels >> k, grass::kMarchRows,
+            r.variants * 2 * (shared::kFinestSlabs >> k));
+    return sum;
+}
+
 } // namespace
 
 SetReport dry_run(const Preset& preset, const BakeOptions& options) {
@@ -116,6 +135,8 @@ SetReport dry_run(const Preset& preset, const BakeOptions& options) {
         r.gpu_bytes += level.gpu_bytes;
         r.levels.push_back(level);
     }
+    const double march = add_march(r);
+    account.arrays += march;
     r.gpu_bytes += r.blades * sizeof(shared::BladeRecord);
     r.files.push_back({grass::kBladesFile, 0,
                        grass::encode_blades(patch.blades, patch.variant_begin,
@@ -129,7 +150,8 @@ SetReport dry_run(const Preset& preset, const BakeOptions& options) {
     }
     account.blades = static_cast<double>(r.blades);
     const auto texels = static_cast<double>(preset.size * preset.size);
-    account.scratch = resolve_threads(options.threads) * texels * 60;
+    constexpr double kFloatsShare = 32.0 / 12; // the march's images as floats, over what is kept of them
+    account.scratch = std::max(resolve_threads(options.threads) * texels * 60, kFloatsShare * march);
     r.peak_bytes = peak_of(account, options);
     return r;
 }

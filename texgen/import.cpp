@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "base/error.h"
 #include "texgen/far_table.h"
+#include "base/hash.h"
 #include "texgen/import_field.h"
+#include "texgen/march_fit.h"
 #include "texgen/parallel.h"
 #include "texgen/preset.h"
 #include "texgen/step_timer.h"
@@ -105,6 +109,30 @@ void check(const Volume& volume, const ImportQuery& query, const std::filesystem
                "at most 2 GiB and slices of 2048 rows: a smaller --size, fewer --layers or --slices");
 }
 
+/// Heights of the canopy's own hits.
+HeightCaster cast_voxels(const VoxelField& field, const shared::GrassAppearance& look) {
+    const auto canopy = std::make_shared<Canopy>(volume_canopy(field, look));
+    const auto casters = std::make_shared<std::vector<Caster>>(canopy->bent(0));
+    const double top = field.canopy();
+    return [canopy, casters, top](const SampleRay& ray, std::uint64_t number, double density) -> std::optional<double> {
+        const std::optional<GrassHit> hit = (*casters)[number % casters->size()](ray, number);
+        // A thinner cloud is not known by its seeds: as if each ray's hit were there with that chance.
+        const bool there = hit && (density > 0.999 || base::hash_unit(0x7d1, 0, number) < density);
+        return there ? std::optional<double>(hit->height * top) : std::nullopt;
+    };
+}
+
+grass::FarMedium march_of(const VoxelField& field, const ImportQuery& query, const grass::GrassSet& set) {
+    const shared::GrassAppearance& look = set.species.front().look;
+    const HeightCaster truth = cast_voxels(field, look);
+    MarchBuilder builder(field.side(), set.canopy_m, 1, heights_met(truth, field.side(), set.canopy_m));
+    add_voxels(field, look, builder);
+    const MarchData data = builder.finish(std::span(&look, 1));
+    grass::FarMedium march = pack_march(data);
+    march.correction = fit_march(data, truth, query.far_rays, query.threads);
+    return march;
+}
+
 } // namespace
 
 grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, const std::filesystem::path& file) {
@@ -130,6 +158,7 @@ grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, co
     const std::vector<double> seen = heights_seen(field, query.threads);
     for (int k = 0; k < query.levels; ++k)
         set.levels.push_back(project_level(field, query, k, set, seen));
+    set.march = march_of(field, query, set);
     FarTable table = far_table(volume_canopy(field, set.species.front().look), query.far_rays, query.threads);
     set.far = std::move(table.rows);
     set.far_light = std::move(table.light);

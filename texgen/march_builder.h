@@ -64,6 +64,11 @@ private:
 /// The pieces of a variant's blades, each a fraction of a texel.
 void add_blades(const Patch& patch, int variant, MarchBuilder& builder);
 
+class VoxelField;
+/// The same of an imported volume's voxels: of a blade's its area, of a cloud's its faces toward emptier ones, in the voxels' own colours where
+/// the volume has some.
+void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, MarchBuilder& builder);
+
 /// What the renderer reads of it: half floats.
 [[nodiscard]] grass::FarMedium pack_march(const MarchData& data);
 

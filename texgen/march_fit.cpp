@@ -24,7 +24,8 @@ constexpr std::array kElevationsDeg = {3.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 7
 constexpr std::array kMips = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0};
 constexpr double kLeast = 0.15, kMost = 6; // of the factor
 constexpr int kHalvings = 9;
-constexpr int kTruthRays = 12000, kMarchRays = 600;
+constexpr int kTruthRays = 12000; // of a view, at most
+constexpr int kMarched = 20;        // of so many true rays one is marched: its noise is an average's already
 constexpr std::uint64_t kStream = 0x3a2c;
 
 /// What a ray that ends at this height brings: brighter up in the canopy, as shade_grass has it with the sun and the sky in halves; the
@@ -73,7 +74,7 @@ struct Case {
 /// Mean light that the march sees with a factor.
 class MarchMean {
 public:
-    MarchMean(const MarchData& data, const Case& which) : data_(data), case_(which) {
+    MarchMean(const MarchData& data, const Case& which, int rays) : data_(data), case_(which), rays_(rays) {
         const double texel = data.medium.size.x / static_cast<double>(shared::kMarchTexels);
         const double softness = shared::kSlabSoftness;
         footprint_ = which.kind == kMarchColumns
@@ -82,9 +83,9 @@ public:
     }
     [[nodiscard]] double at(double factor) const {
         double sum = 0;
-        for (int i = 0; i < kMarchRays; ++i)
+        for (int i = 0; i < rays_; ++i)
             sum += one(i, static_cast<float>(factor));
-        return sum / kMarchRays;
+        return sum / rays_;
     }
 
 private:
@@ -129,18 +130,19 @@ private:
 
     const MarchData& data_;
     Case case_;
+    int rays_;
     double footprint_;
 };
 
-double true_mean(const MarchData& data, const HeightCaster& truth, double elevation_deg, double density) {
+double true_mean(const MarchData& data, const HeightCaster& truth, const Case& which, int rays) {
     const double canopy = data.medium.size.y;
     double sum = 0;
-    for (int i = 0; i < kTruthRays; ++i) {
-        const SampleRay ray = sample_ray(i, std::min(elevation_deg, 89.9), data.medium.size.x, canopy);
-        const std::optional<double> height = truth(ray, static_cast<std::uint64_t>(i), density);
+    for (int i = 0; i < rays; ++i) {
+        const SampleRay ray = sample_ray(i, std::min(which.elevation_deg, 89.9), data.medium.size.x, canopy);
+        const std::optional<double> height = truth(ray, static_cast<std::uint64_t>(i), which.density);
         sum += height ? light_at(*height, canopy) : kGroundLight;
     }
-    return sum / kTruthRays;
+    return sum / rays;
 }
 
 double fit_one(const MarchMean& march, double wanted) {
@@ -164,19 +166,20 @@ template<std::size_t N> double between(const std::array<double, N>& nodes, const
 
 } // namespace
 
-std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int threads) {
+std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads) {
+    const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 40);
     constexpr std::size_t kKinds = shared::kMarchSets + 1, kElevations = kElevationsDeg.size();
     constexpr std::size_t kDensities = grass::kMarchDensities.size();
     // [density][elevation][kind][mip]
     std::vector<std::array<double, kMips.size()>> found(kDensities * kElevations * kKinds);
     parallel_for(kDensities * kElevations, resolve_threads(threads), [&](std::size_t i, int) {
         const double density = grass::kMarchDensities[i / kElevations], elevation = kElevationsDeg[i % kElevations];
-        const double wanted = true_mean(data, truth, elevation, density);
+        const double wanted = true_mean(data, truth, {0, 0, elevation, density}, true_rays);
         for (std::size_t kind = 0; kind < kKinds; ++kind)
             for (std::size_t m = 0; m < kMips.size(); ++m) {
                 auto& row = found[i * kKinds + kind];
                 const bool rare = kind != kMarchColumns && (elevation > 75 || kMips[m] > 6); // columns show such views
-                row[m] = rare && m > 0 ? row[m - 1] : fit_one(MarchMean(data, {static_cast<int>(kind), kMips[m], elevation, density}), wanted);
+                row[m] = rare && m > 0 ? row[m - 1] : fit_one(MarchMean(data, {static_cast<int>(kind), kMips[m], elevation, density}, marched), wanted);
             }
     });
     std::vector<float> table;

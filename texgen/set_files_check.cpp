@@ -57,7 +57,8 @@ FileEntry entry_of(const fs::path& path, const std::string& name, const json& va
 }
 
 bool is_our_name(const std::string& name) {
-    const bool texture = (name.starts_with("layers") || name.starts_with("slices")) && name.ends_with(".ktx2");
+    constexpr const char* kStems[] = {"layers", "slices", "slabs", "slab_fibres", "columns", "column_fibres", "correction"};
+    const bool texture = name.ends_with(".ktx2") && std::ranges::any_of(kStems, [&](const char* stem) { return name.starts_with(stem); });
     return texture || name == grass::kFarLightFile || name == grass::kFarLightPicture || name == grass::kBladesFile ||
            name == grass::kVolumeFile || name == grass::kPreviewFile;
 }

@@ -101,7 +101,6 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     vec3 crossed = abs(vec3(medium.edges[0]) * vec3(plan.level.x, view.way.y, plan.level.y));
     vec3 tint_slope_shown = vec3(crossed.y / max(crossed.x + crossed.y + crossed.z, 1e-6), dot(normal, frame.light.to_sun.xyz), 0.0);
     seen.grass.along = 0.0;
-    bool handing_over = entry.distance < frame.handover.y + frame.patch_grid.z;
     float ground = kOnGround * min(path.height.x / max(-path.height.y, 1e-4), kNever);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
 #ifdef CREST
@@ -116,7 +115,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         vec4 texel = textureLod(densities, uv, mip);
         float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
-        depth *= handing_over ? far_share(frame.eye.xyz + view.way * middle) : 1.0;
+        depth *= far_share(frame.eye.xyz + view.way * middle);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
         tint_slope_shown.z = mean_of(lost);
@@ -171,8 +170,8 @@ void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     View view = view_of(pixel, ndc);
     vec4 scene; // distance along the ray to what each sample shows
-    for (int i = 0; i < 4; ++i) {
-        float depth = texelFetch(scene_depth, pixel, min(i, samples - 1)).r;
+    for (int i = 0; i < 4; ++i) { // fewer samples count more than once
+        float depth = texelFetch(scene_depth, pixel, i * samples / 4).r;
         scene[i] = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
     }
     float farthest = max(max(scene.x, scene.y), max(scene.z, scene.w));
@@ -205,7 +204,7 @@ void main() {
     write_first_sample(pixel);
     out_color = vec4(radiance, 1.0 - mean_of(through));
     for (int i = 0; i < 4; ++i) {
-        out_color += 0.25 * through[i] * texelFetch(scene_color, pixel, min(i, samples - 1));
+        out_color += 0.25 * through[i] * texelFetch(scene_color, pixel, i * samples / 4);
     }
     if (through.x < 0.5) {
         out_data.x = min(half_way, farthest) * view.axis;

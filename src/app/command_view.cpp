@@ -180,6 +180,7 @@ void run_view(const Options& options) {
     if (options.debug_gl)
         gl::watch_debug_messages(&messages);
     render::World world = load_world(scene);
+    world.far = options.frame.far;
     scene::settle_place(start, place_on_earth(world.elevation), "--camera");
     render::Renderer renderer(std::move(world));
     window.show();

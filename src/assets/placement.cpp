@@ -10,6 +10,7 @@
 #include <cpl_conv.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gdal.h>
 #include <ogr_srs_api.h>
 
 #include "assets/assets.h"

@@ -7,10 +7,11 @@
 #include <unordered_map>
 #include <vector>
 
-#include <gdal.h>
 #include <glm/glm.hpp>
 
 #include "scene/heightfield.h"
+
+using GDALDatasetH = void*; // as gdal.h has it, which those who include this need not have
 
 namespace sward::assets {
 

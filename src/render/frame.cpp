@@ -116,12 +116,17 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
         far_appearance.bind();
     }
     FieldView field;
-    field.blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor,
-                                           {glm::vec3(constants.eye), world.grass.canopy_m});
-    if (settings.far == FarScheme::kPlanes)
-    field.far = shells::select_far(world.grass, field.blocks, shot.bands,
-                                   {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
-                                    mean_bend(constants)});
+    {
+        const gl::PassScope pass(timers, "select blocks");
+        field.blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor,
+                                               {glm::vec3(constants.eye), world.grass.canopy_m});
+    }
+    if (rasterises(settings)) {
+        const gl::PassScope pass(timers, "select far");
+        field.far = shells::select_far(world.grass, field.blocks, shot.bands,
+                                       {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
+                                        mean_bend(constants)});
+    }
     const gl::PassScope pass(timers, "block samples");
     block_samples.execute(field.blocks);
     return field;

@@ -62,6 +62,7 @@ Renderer::Impl::Impl(World inputs)
         level.layers.mips.shrink_to_fit();
         level.slices.mips.clear();
         level.slices.mips.shrink_to_fit();
+        level.layers_shape = level.slices_shape = {};
     }
 }
 
@@ -130,8 +131,11 @@ FrameStats Renderer::stats() {
         const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
         if (settings.far == FarScheme::kPlanes) {
-        stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
-        stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
+            stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
+            stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
+        } else if (settings.shells && !impl_->march_textures.empty()) {
+            stats.shell_fragments = passes.march.pixels().y;
+            stats.slice_fragments = passes.march.pixels().x;
         }
     }
     if (stats.blades_considered > 0) {

@@ -77,8 +77,8 @@ struct FrameStats {
     std::uint64_t physics_bytes = 0;     ///< all buffers of the blades' physics
     std::uint64_t sphere_pairs = 0;      ///< of a patch and a collider that it may meet, in the frame's steps
     std::uint64_t surface_bytes = 0;     ///< of a mesh's blades and of what culls them
-    std::uint64_t shell_fragments = 0;   ///< that passed every test and were written
-    std::uint64_t slice_fragments = 0;
+    std::uint64_t shell_fragments = 0;   ///< of the march: pixels whose ray went through columns; of the planes: that were written
+    std::uint64_t slice_fragments = 0;   ///< likewise through slabs; slices
     std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive
 };
 

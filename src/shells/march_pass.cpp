@@ -42,9 +42,21 @@ MarchPass::MarchPass(bool aov)
       crest_columns_("columns at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS", "CREST"})),
       crest_slabs_("slabs at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"CREST"})) {
     glCreateVertexArrays(1, &vertex_array_);
+    glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
 
-MarchPass::~MarchPass() { glDeleteVertexArrays(1, &vertex_array_); }
+MarchPass::~MarchPass() {
+    glDeleteVertexArrays(1, &vertex_array_);
+    glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
+}
+
+glm::uvec2 MarchPass::pixels() const {
+    glm::uvec2 passed(0);
+    for (int i = 0; i < 2; ++i) {
+        glGetQueryObjectuiv(queries_[static_cast<std::size_t>(i)], GL_QUERY_RESULT, &passed[i]);
+    }
+    return passed;
+}
 
 void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh) {
     targets.bind_for_drawing();
@@ -76,21 +88,28 @@ void MarchPass::choose(const Inputs& inputs) {
     glDepthFunc(GL_GREATER);
 }
 
+void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const {
+    inputs.textures.bind_kind(kind);
+    for (const gl::Program* program : {&plain, &crest}) {
+        program->use();
+        program->set("samples", inputs.samples);
+        program->set("kind", kind);
+        triangle(*program, inputs, shared::kind_depth(kind, program == &crest));
+    }
+}
+
 void MarchPass::execute(const Inputs& inputs) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
-    for (int kind = 0; kind <= shared::kMarchColumns; ++kind) {
-        inputs.textures.bind_kind(kind);
-        for (const bool crest : {false, true}) {
-            const bool columns = kind == shared::kMarchColumns;
-            const gl::Program& program = crest ? (columns ? crest_columns_ : crest_slabs_) : columns ? columns_ : slabs_;
-            program.use();
-            program.set("samples", inputs.samples);
-            program.set("kind", kind);
-            triangle(program, inputs, shared::kind_depth(kind, crest));
-        }
+    glBeginQuery(GL_SAMPLES_PASSED, queries_[0]);
+    for (int kind = 0; kind < shared::kMarchSets; ++kind) {
+        draw_kind(kind, slabs_, crest_slabs_, inputs);
     }
+    glEndQuery(GL_SAMPLES_PASSED);
+    glBeginQuery(GL_SAMPLES_PASSED, queries_[1]);
+    draw_kind(shared::kMarchColumns, columns_, crest_columns_, inputs);
+    glEndQuery(GL_SAMPLES_PASSED);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);
     glDisable(GL_DEPTH_TEST);

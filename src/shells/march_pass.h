@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+
+#include <glm/glm.hpp>
+
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -43,14 +47,18 @@ public:
     void choose(const Inputs& inputs);
     /// Resolves the scene, seen through the far field, where there is any. Before: choose(), and the scene's textures and the resolved targets are bound.
     void execute(const Inputs& inputs);
+    /// Pixels of the last execute() that were marched through slabs (x) and columns (y); waits for the GPU.
+    [[nodiscard]] glm::uvec2 pixels() const;
     void reload();
 
 private:
+    void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const;
     void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
     gl::Program canopy_, choose_;
     gl::Program columns_, slabs_;             ///< of rays that end in the canopy
     gl::Program crest_columns_, crest_slabs_; ///< of those that may leave it and come to another
     std::uint32_t vertex_array_ = 0;
+    std::array<std::uint32_t, 2> queries_{}; ///< samples passed: slabs, columns
 };
 
 } // namespace sward::shells

@@ -12,6 +12,7 @@
 #include "scene/heightfield.h"
 #include "shared/blade.h"
 #include "shared/shading.h"
+#include "support/even_march.h"
 
 namespace sward::tests {
 
@@ -177,6 +178,7 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     }
     set.far_light = synthetic_light(set.far);
     set.species.push_back({"grass", "blade", 1, grass_look()});
+    set.march = even_march(set.side_m, set.canopy_m, set.variants);
     return set;
 }
 

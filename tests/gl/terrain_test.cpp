@@ -182,7 +182,7 @@ TEST_F(Terrain, BlocksCoverTheGroundOnce) {
     SmallWorld world(hilly_field(), 0.8, {}, {123.4, 345, -321.5});
     const terrain::Frustum frustum(world.frame.clip_from_world);
     const auto blocks = visible_blocks(world.clipmap, world.surface, frustum, world.anchor,
-                                       glm::vec3(world.frame.eye));
+                                       {glm::vec3(world.frame.eye), 0.0f});
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(-1, 1);
     int seen = 0;
@@ -230,7 +230,7 @@ std::vector<terrain::VisibleBlock> all_blocks(const SmallWorld& world) {
     const terrain::Frustum everything(
         glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
     return visible_blocks(world.clipmap, world.surface, everything, world.anchor,
-                          glm::vec3(world.frame.eye));
+                          {glm::vec3(world.frame.eye), 0.0f});
 }
 
 /// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there

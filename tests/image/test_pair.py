@@ -13,6 +13,7 @@ SIZE, FOV, PITCH = "320x180", 16.4, -21  # focal length 625 pixels, ground from 
 HEIGHT, SPEED, START_Z = 1.5, 30.0, 4.0
 STEPS = 7
 BOX = 4
+BUILDS = {"ships": (), "no_slices": ("--far", "planes")}
 EVERY_STEP, SOME_STEPS = range(1, STEPS + 1), (1, 4)
 
 
@@ -35,7 +36,7 @@ class Sweep(ImageCase):
         pictures, stats = {}, {}
         for step in steps:
             path, stats[step] = cls.render(f"{build}.{step}.png", "--path", "sweep", "--time", repr(step / 60), "--frame-index", str(step),
-                                           size=SIZE, shaders=cls.shaders_of(build))
+                                           *BUILDS[build], size=SIZE, shaders=cls.shaders_of(build))
             pictures[step] = sward_image.load_png(path)
         return pictures, stats
 
@@ -52,7 +53,7 @@ class Sweep(ImageCase):
 
     def step(self, build, step, before):
         """Figures of the pixels, and of the boxes."""
-        then = sward_image.load_png(self.moment("then.png", step, before, shaders=self.shaders_of(build)))
+        then = sward_image.load_png(self.moment("then.png", step, before, *BUILDS[build], shaders=self.shaders_of(build)))
         now = self.now[build][0][step]
         pixels, boxes = metrics.pair(then, now), metrics.pair(metrics.boxed(then, BOX), metrics.boxed(now, BOX))
         print(f"{build:9} step {step} tiers of {before}: {metrics.text(pixels)}; boxes: {metrics.text(boxes)}", flush=True)

@@ -46,7 +46,8 @@ class Storm(ImageCase):
         cls.builds = {
             "ships": None,
             "no_sway": broken(cls.dir, "no_sway", [(sway, "return vec2(exp(kept - x), depth);", "return vec2(1.0f, 1.0f);")]),
-            "flat": broken(cls.dir, "flat", [(bend, "return vec2(sin(ks) / k, (1.0f - cos(ks)) / k);", "return vec2(0.02f * s, s);")]),
+            "flat": broken(cls.dir, "flat", [(bend, "return vec2(sin(ks) / k, (1.0f - cos(ks)) / k);", "return vec2(0.02f * s, s);"),
+                                            ("shared/march.h", "return y * (1.0f - x * (1.0f / 6.0f", "return 0.02f * y * (1.0f - x * (1.0f / 6.0f")]),
             "stiff": broken(cls.dir, "stiff", [(bend, "return 0.17f * load / (1.0f + load);", "return 0.0f;")])}
 
     @classmethod
