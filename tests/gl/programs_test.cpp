@@ -68,6 +68,14 @@ std::vector<Variant> variants() {
                              "published_divergence", "published_jacobi", "published_project"}) {
         all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
     }
+    all.push_back({{"shells/canopy.vert", "shells/canopy.frag"}, {}});
+    all.push_back({{"shells/march.vert", "shells/march_choose.frag"}, {}});
+    for (const char* kind : {"COLUMNS", "SLABS"}) {
+        for (const char* rays : {"CREST", "PLAIN"}) {
+            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays}});
+            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV"}});
+        }
+    }
     all.push_back({{"wind/forces.comp"}, {"INFLOW"}});
     all.push_back({{"wind/ambient_totals.comp"}, {"PERIODIC"}});
     all.push_back({{"wind/ambient_force.comp"}, {"PERIODIC"}});
@@ -130,7 +138,8 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
                                                          {"SurfaceBlock", BIND_SURFACE},
                                                          {"WindGridBlock", BIND_WIND_GRID},
                                                          {"WindFieldBlock", BIND_WIND_FIELD},
-                                                         {"PhysicsBlock", BIND_PHYSICS}};
+                                                         {"PhysicsBlock", BIND_PHYSICS},
+                                                         {"MarchBlock", BIND_MARCH}};
     // The wind's passes run before all others and share their binding points among themselves.
     const std::map<std::string, GLint> storage_blocks = {
         {"WindU", BIND_WIND_U},
@@ -209,6 +218,12 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"heights", TEX_CLIP_HEIGHT},
                                                 {"far_images", TEX_FAR_IMAGES}, {"record_texels", TEX_PHYSICS_BLADES},
                                                 {"far_shapes", TEX_FAR_SHAPES},
+                                                {"densities", TEX_MARCH_DENSITY},
+                                                {"fibres", TEX_MARCH_FIBRES},
+                                                {"correction", TEX_MARCH_CORRECTION},
+                                                {"canopy_depth", TEX_CANOPY_DEPTH},
+                                                {"canopy_ground", TEX_CANOPY_GROUND},
+                                                {"canopy_air", TEX_CANOPY_AIR},
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
@@ -271,6 +286,9 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
             }
             EXPECT_EQ(size, groups.at(program.name())) << program.name();
             continue;
+        }
+        if (program.name() == "shells/canopy.frag" || program.name() == "shells/march_choose.frag") {
+            continue; // what they draw is for the march, not a picture
         }
         EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();
         const bool aov = !variant.defines.empty() && variant.defines.back() == "AOV";

@@ -244,7 +244,7 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
     renderer.draw(view, bare);
     const auto fewer = renderer.stats();
     EXPECT_EQ(fewer.blades_drawn + fewer.blades_considered + fewer.shell_fragments, 0u);
-    EXPECT_EQ(fewer.passes.size(), names.size() - 5);
+    EXPECT_EQ(fewer.passes.size(), names.size() - 6);
 }
 
 TEST_F(Render, TiersDrawWhatTheirNamesSay) {

@@ -228,7 +228,7 @@ TEST_F(SceneFile, ValuesAreCheckedForTypeAndRange) {
     EXPECT_EQ(error(kTerrain + "size_m = [4000]\n"),
               "scene.toml:3: terrain.size_m: found an array of 1, expected an array of 2 numbers");
     EXPECT_EQ(error(kTerrain + "size_m = [4000, 0]\n"),
-              "scene.toml:3: terrain.size_m[1]: found 0, expected a number from 1 to 1000000 m");
+              "scene.toml:3: terrain.size_m[1]: found 0, expected a number from 1 to 1200000 m");
     EXPECT_EQ(error("terrain = 4\n"), "scene.toml:1: terrain: found 4, expected a table");
     EXPECT_EQ(error(kTerrain + "mask = \"\"\n"),
               "scene.toml:3: terrain.mask: found \"\", expected a text of 1 to 4096 bytes");
@@ -462,7 +462,7 @@ TEST(Pose, RefusesWhatIsNone) {
     const auto error = [](const std::string& text) {
         return error_of([&] { (void)parse_pose(text, "--camera"); }, ExitCode::kUsage);
     };
-    const std::string form = ", expected x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch";
+    const std::string form = ", expected x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
     EXPECT_EQ(error(""), "--camera: found nothing" + form);
     EXPECT_EQ(error("1,2,3,4"), "--camera: found 1,2,3,4" + form);
     EXPECT_EQ(error("1,2,3,4,5,6"), "--camera: found 1,2,3,4,5,6" + form);
