@@ -21,7 +21,7 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kMarchSteps = 80;      // at most; a canopy that is not opaque by then is cut there
+SHARED_CONST int kMarchSteps = 128;      // at most; a canopy that is not opaque by then is cut there
 SHARED_CONST float kMarchEnd = 0.02f;   // light that is left when a march ends early
 SHARED_CONST float kMarchCut = 0.999f;  // share of what is seen that the columns' steps divide; the last takes the rest
 

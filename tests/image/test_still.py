@@ -23,14 +23,13 @@ class Still(ImageCase):
         return sward_image.scene_text([camera("road", (0.7, 1.5, 4), -21, 16.4)])
 
     def test_twice(self):
-        """Blades, shells and slices in one picture, in wind: the same bytes."""
+        """Blades and the far field in one picture, in wind: the same bytes."""
         arguments = ("--camera", "road", "--time", "2.5")
         first, stats = self.render("a.png", *arguments)
         self.assertTrue(first.read_bytes() == self.render("b.png", *arguments)[0].read_bytes(), "different bytes")
         sward_image.load_png(first)
         self.assertGreater(stats["blades"]["drawn"], 0)
-        self.assertGreater(stats["fragments"]["shells"], 0)
-        self.assertGreater(stats["fragments"]["slices"], 0)
+        self.assertGreater(sum(stats["fragments"].values()), 0)
 
     def test_there_and_back(self):
         """Tiers chosen from half a metre ahead leave no trace in the next frame drawn from the eye itself."""
