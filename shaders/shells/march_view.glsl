@@ -16,6 +16,7 @@ flat in vec4 eye_ground; // Entry::ground, air there
 flat in vec4 eye_air;
 
 const float kNever = 1e9;
+const float kFarthest = 1e6; // no place beyond is asked for (m)
 const float kLowPath = 3.0; // over ground within so many canopies' reach no curve is looked for
 
 struct View {
@@ -50,6 +51,10 @@ Entry entry_of(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
     float distance_m = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
     vec4 ground = texelFetch(canopy_ground, pixel, 0);
+    if (frame.clip_layout.w != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
+        vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
+        ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
+    }
     vec4 air = texelFetch(canopy_air, pixel, 0);
     bool inside = eye_place.x > 0.5; // the eye stands in the canopy
     return Entry(inside ? kNear_m : distance_m, inside ? eye_place.y : frame.patch_grid.w, inside ? eye_ground : ground, inside ? eye_air : air);
