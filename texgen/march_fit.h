@@ -15,7 +15,7 @@ namespace sward::texgen {
 using HeightCaster = std::function<std::optional<double>(const SampleRay& ray, std::uint64_t number, double density)>;
 
 /// Table of factors: densities kMarchDensities x half mips x elevations x kinds (the last fastest). `rays`: of a view, at most (kFarRays); time grows
-/// with them up to some 12,000.
+/// with them up to some 6,000.
 [[nodiscard]] std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads);
 
 /// Heights (m, rising) that rays meet from grazing views to straight down, as many of each: where the columns' layers have to be thin.

@@ -132,7 +132,7 @@ class Ground(CliCase):
         self.assertGreater(len(rows), 4)
         for j in rows:
             self.assertLess(picture[j, 159:161].min(), 0.1, j)
-            self.assertGreater(picture[j, 100:130].mean(), 0.25, j)
+            self.assertGreater(picture[j, 100:130].mean(), 0.15, j)
 
     def test_vertical_units_and_voids(self):
         geotiff(self.dir / "height.tif", 33, 33, lambda i, j: -32000 if i == j == 16 else 100, "h", UTM32, (10, 0, 500000, 0, -10, 5500000))

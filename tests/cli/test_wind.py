@@ -161,7 +161,7 @@ class Wind(CliCase):
                 (2, ["--at", "1e9"], whole + ["--at", "1e9,0"]),
                 (2, ["--aov"], whole + ["--aov", "depth"]),
                 (4, ["--every"], ["wind", "scene.toml", "--time", "1e9", "--every", "0.001", "-o", "w.%d.exr"]),
-                (5, ["nowhere"], whole[:5] + ["nowhere/w.exr"]),
+                (5, ["nowhere"], whole[:5] + ["/proc/nowhere/w.exr"]),
                 (5, ["gone.toml"], ["wind", "gone.toml", "--time", "1", "-o", "w.exr"])]:
             with self.subTest(arguments):
                 self.refuse(code, pieces, *arguments)

@@ -102,7 +102,7 @@ class Pictures:
 
 def load(path):
     channels = sward_image.load_exr(path)
-    if channels["tier"].max() > 5.5:
+    if (channels["tier"] > 5.5).mean() > 1e-3:  # a pixel between two levels of the ground may be open
         raise metrics.NoPicture(f"{path.name}: found sky or objects, expected land alone")
     return np.concatenate([channels["color"], channels["coverage"][..., None]], axis=2)
 
