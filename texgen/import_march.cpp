@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the far field's march reads of an imported volume.
+#include <algorithm>
 #include <cmath>
 
 #include "shared/shading.h"
@@ -8,9 +9,32 @@
 
 namespace sward::texgen {
 
+namespace {
+
+/// Parts a voxel is cut into along each axis, so that it fills the texels that it is as wide as; fewer where there are many voxels.
+int parts_of(const VoxelField& field) {
+    constexpr double kMostPieces = 4e7;
+    const double texels = field.volume().voxel_m * shared::kMarchTexels / field.side();
+    const double affordable = std::cbrt(kMostPieces / static_cast<double>(std::max<std::size_t>(field.size(), 1)));
+    return std::max(1, static_cast<int>(std::min(std::ceil(texels), std::min(affordable, 8.0))));
+}
+
+/// Adds the piece in equal parts spread over its voxel.
+void add_spread(SurfacePiece piece, double voxel_m, int parts, MarchBuilder& builder) {
+    const glm::dvec3 centre = piece.place;
+    piece.area /= static_cast<double>(parts) * parts * parts;
+    for (int n = 0; n < parts * parts * parts; ++n) {
+        const glm::dvec3 part(n % parts, n / parts % parts, n / (parts * parts));
+        piece.place = centre + ((part + 0.5) / static_cast<double>(parts) - 0.5) * voxel_m;
+        builder.add(0, piece);
+    }
+}
+
+} // namespace
+
 void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, MarchBuilder& builder) {
     const double face = field.volume().voxel_m * field.volume().voxel_m;
-    constexpr float kMostOpaque = 0.999f; // beyond it an optical depth says nothing
+    const int parts = parts_of(field);
     for (std::size_t i = 0; i < field.size(); ++i) {
         SurfacePiece piece;
         piece.place = field.centre(i);
@@ -22,10 +46,10 @@ void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, Ma
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 way(0);
             way[axis] = 1;
-            const float opacity = std::min(std::max(field.seen_along(i, way), 0.0f), kMostOpaque);
-            piece.area[axis] = field.blades() ? face * static_cast<double>(opacity) : -face * std::log1p(-static_cast<double>(opacity));
+            const float opacity = std::clamp(field.seen_along(i, way), 0.0f, 1.0f);
+            piece.area[axis] = face * static_cast<double>(opacity);
         }
-        builder.add(0, piece);
+        add_spread(piece, field.volume().voxel_m, parts, builder);
     }
 }
 

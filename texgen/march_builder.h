@@ -65,8 +65,7 @@ private:
 void add_blades(const Patch& patch, int variant, MarchBuilder& builder);
 
 class VoxelField;
-/// The same of an imported volume's voxels: of a blade's its area, of a cloud's its faces toward emptier ones, in the voxels' own colours where
-/// the volume has some.
+/// The same of an imported volume's voxels: of each the part of its faces that it covers, in the voxels' own colours where the volume has some.
 void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, MarchBuilder& builder);
 
 /// What the renderer reads of it: half floats.

@@ -22,7 +22,7 @@ using shared::kMarchColumns;
 
 constexpr std::array kElevationsDeg = {3.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0};
 constexpr std::array kMips = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0};
-constexpr double kLeast = 0.15, kMost = 6; // of the factor
+constexpr double kLeast = 0.03, kMost = 6; // of the factor; a solid volume counts its inside too
 constexpr int kHalvings = 7;
 constexpr int kTruthRays = 6000; // of a view, at most
 constexpr int kMarched = 20;        // of so many true rays one is marched: its noise is an average's already
