@@ -5,6 +5,7 @@
 #include "texgen/far_level.h"
 #include "texgen/far_table.h"
 #include "texgen/march_fit.h"
+#include "texgen/march_slope.h"
 #include "texgen/placing.h"
 #include "texgen/step_timer.h"
 #include "texgen/writer.h"
@@ -64,7 +65,8 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
         MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(), heights_met(truth, preset.side_m, set.canopy_m));
         for (int v = 0; v < patch.variants(); ++v)
             add_blades(patch, v, builder);
-        const MarchData data = builder.finish(patch.looks);
+        MarchData data = builder.finish(patch.looks);
+        fit_slopes(patch, static_cast<int>(preset.far_rays), options.threads, data.medium);
         set.march = pack_march(data);
         set.march.correction = fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
     }

@@ -9,9 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "base/hash.h"
 #include "base/log.h"
-#include "shared/march.h"
+#include "shared/march_light.h"
 #include "shared/shading.h"
 #include "texgen/parallel.h"
 
@@ -23,33 +22,46 @@ using shared::kMarchColumns;
 constexpr std::array kElevationsDeg = {3.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 75.0, 90.0};
 constexpr std::array kMips = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0};
 constexpr double kLeast = 0.03, kMost = 6; // of the factor; a solid volume counts its inside too
-constexpr int kHalvings = 7;
-constexpr int kTruthRays = 6000; // of a view, at most
+constexpr double kDarkest = 0.5;           // factor on the light
+constexpr int kHalvings = 9;
+constexpr int kTruthRays = 12000; // of a view, at most
 constexpr int kMarched = 20;        // of so many true rays one is marched: its noise is an average's already
-constexpr std::uint64_t kStream = 0x3a2c;
+const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 
-/// What a ray that ends at this height brings: brighter up in the canopy, as shade_grass has it with the sun and the sky in halves; the
-/// ground is dark. Any rising function would do whose mean tells both how much is seen of the grass and how deep.
+/// What a ray that ends at this height brings: mostly that it has met grass, and a little how high up, where there is more light. Any such function
+/// would do whose mean tells both how much is seen of the grass and how deep; coverage has to be right where ground is seen.
 double light_at(double height, double canopy) {
     const double under = 1 - height / canopy;
     return 0.5 * std::exp(-shared::kSunExtinction * under / 0.57) + 0.5 * std::exp(-shared::kSkyExtinction * under);
 }
-constexpr double kGroundLight = 0.08;
+constexpr double kCoverageCounts = 0.75;
+double found_at(double height, double canopy) { return kCoverageCounts + (1 - kCoverageCounts) * light_at(height, canopy); }
+
+/// What the march reads of a texel.
+struct Texel {
+    float density = 0;
+    float albedo = 0;       ///< luminance, times the density
+    glm::vec3 tangent{0};   ///< likewise
+};
+
+Texel mix(const Texel& a, const Texel& b, float t) {
+    return {std::lerp(a.density, b.density, t), std::lerp(a.albedo, b.albedo, t), glm::mix(a.tangent, b.tangent, t)};
+}
 
 /// Trilinear, repeating along u and, if asked, along v: as the GPU reads it.
 class Reader {
 public:
     Reader(const MarchImages& images, bool repeat_v) : images_(images), repeat_v_(repeat_v) {}
-    [[nodiscard]] float density(glm::vec3 place, float mip) const {
+    [[nodiscard]] Texel at(glm::vec3 place, float mip) const {
         const float last = static_cast<float>(images_.mips.size() - 1), m = std::clamp(mip, 0.0f, last);
         const auto low = static_cast<int>(m);
         const float share = m - static_cast<float>(low);
-        const float near = at(place, low);
-        return share > 0 ? std::lerp(near, at(place, low + 1), share) : near;
+        const Texel near = in_mip(place, low);
+        return share > 0 ? mix(near, in_mip(place, low + 1), share) : near;
     }
 
 private:
-    [[nodiscard]] float at(glm::vec3 place, int mip) const {
+    [[nodiscard]] Texel in_mip(glm::vec3 place, int mip) const {
         const int w = std::max(1, images_.width >> mip), h = std::max(1, images_.height >> mip);
         const float u = (place.x - std::floor(place.x)) * static_cast<float>(w) - 0.5f;
         const float v = (repeat_v_ ? place.y - std::floor(place.y) : place.y) * static_cast<float>(h) - 0.5f;
@@ -58,9 +70,10 @@ private:
         const auto texel = [&](int x, int y) {
             x = (x + w) % w;
             y = repeat_v_ ? (y + h) % h : std::clamp(y, 0, h - 1);
-            return images_.mips[static_cast<std::size_t>(mip)][((static_cast<std::size_t>(place.z) * h + y) * w + x) * MarchImages::kFloats + MarchImages::kDensity];
+            const float* sums = &images_.mips[static_cast<std::size_t>(mip)][((static_cast<std::size_t>(place.z) * h + y) * w + x) * MarchImages::kFloats];
+            return Texel{sums[MarchImages::kDensity], glm::dot(glm::vec3(sums[0], sums[1], sums[2]), kLuminance), {sums[4], sums[5], sums[6]}};
         };
-        return std::lerp(std::lerp(texel(column, row), texel(column + 1, row), a), std::lerp(texel(column, row + 1), texel(column + 1, row + 1), a), b);
+        return mix(mix(texel(column, row), texel(column + 1, row), a), mix(texel(column, row + 1), texel(column + 1, row + 1), a), b);
     }
     const MarchImages& images_;
     bool repeat_v_;
@@ -71,7 +84,39 @@ struct Case {
     double mip = 0, elevation_deg = 0, density = 1;
 };
 
-/// Mean light that the march sees with a factor.
+/// Sums over marched rays.
+struct Marched {
+    double found = 0; ///< found_at of what they meet
+    double seen = 0;  ///< share of the view that is grass
+    double light = 0; ///< of that: its radiance, as the march shades it
+};
+
+/// Sunlight from so high up, from kSuns sides in turn, and skylight.
+constexpr int kSuns = 4;
+shared::Light sun_from(int side) {
+    constexpr float kElevation = 40 * shared::kPi / 180, kSky = 0.2f;
+    const float azimuth = 2 * shared::kPi * (static_cast<float>(side) + 0.5f) / kSuns;
+    shared::Light light{};
+    light.to_sun = {std::cos(kElevation) * std::cos(azimuth), std::sin(kElevation), std::cos(kElevation) * std::sin(azimuth), shared::kSunExtinction};
+    light.sun = {1, 1, 1, 0};
+    light.zenith = {kSky, kSky, kSky, shared::kSkyExtinction};
+    light.horizon = {kSky, kSky, kSky, 0};
+    return light;
+}
+
+/// Radiance of a ray's sums toward the eye, mean over the suns.
+double radiance_of(const shared::MarchMedium& medium, const shared::GrassSums& gathered, const shared::MarchPlan& plan, const glm::vec3& to_eye) {
+    double sum = 0;
+    for (int side = 0; side < kSuns; ++side) {
+        const shared::Light light = sun_from(side);
+        shared::GrassSums sums = gathered;
+        shared::march_stand(medium, sums, light, {plan.elevation, 0, light.to_sun.y}, to_eye);
+        sum += shared::march_radiance(medium, light, sums, to_eye).y;
+    }
+    return sum / kSuns;
+}
+
+/// Means of what the march sees with a factor.
 class MarchMean {
 public:
     MarchMean(const MarchData& data, const Case& which, int rays) : data_(data), case_(which), rays_(rays) {
@@ -81,51 +126,68 @@ public:
                          ? texel * std::exp2(which.mip - shared::kColumnBias)
                          : texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)) * std::exp2(-static_cast<double>(shared::kSlabBias));
     }
-    [[nodiscard]] double at(double factor) const {
-        double sum = 0;
-        for (int i = 0; i < rays_; ++i)
-            sum += one(i, static_cast<float>(factor));
-        return sum / rays_;
+    [[nodiscard]] Marched at(double factor, bool light_too = false) const {
+        Marched sum;
+        for (int i = 0; i < rays_; ++i) {
+            const Marched one = walk(i, static_cast<float>(factor), light_too);
+            sum.found += one.found / rays_;
+            sum.seen += one.seen / rays_;
+            sum.light += one.light / rays_;
+        }
+        return sum;
     }
 
 private:
-    [[nodiscard]] double one(int number, float factor) const {
+    /// The ray of a sequence that fills places, azimuths and variants evenly, whatever its length (additive recurrence).
+    [[nodiscard]] shared::MarchPath path_of(int number, float& variant) const {
+        constexpr std::array kSteps = {0.8566748838545029, 0.7338918566271260, 0.6287067210378087, 0.5385972572236101};
+        const auto share = [&](std::size_t n) { return std::fmod(0.5 + kSteps[n] * (number + 1), 1.0); };
+        const double elevation = std::min(case_.elevation_deg, 89.9) * std::numbers::pi / 180, azimuth = share(2) * 2 * std::numbers::pi;
         const shared::MarchMedium& medium = data_.medium;
-        const auto random = [&](std::uint64_t n) { return base::hash_unit(kStream, n, static_cast<std::uint64_t>(number)); };
-        const double elevation = std::min(case_.elevation_deg, 89.9) * std::numbers::pi / 180, azimuth = random(2) * 2 * std::numbers::pi;
+        variant = std::floor(static_cast<float>(share(3)) * medium.size.w);
         const glm::vec3 way(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation), std::cos(elevation) * std::sin(azimuth));
         shared::MarchPath path;
-        path.from = {static_cast<float>(random(0)) * medium.size.x, medium.size.y, static_cast<float>(random(1)) * medium.size.x};
+        path.from = {static_cast<float>(share(0)) * medium.size.x, medium.size.y, static_cast<float>(share(1)) * medium.size.x};
         path.way = way;
         path.height = {medium.size.y, way.y, 0, -medium.size.y / way.y};
         path.bend = {1, 0, 0, medium.size.y};
+        return path;
+    }
+
+    [[nodiscard]] Marched walk(int number, float factor, bool light_too) const {
+        const shared::MarchMedium& medium = data_.medium;
+        float variant = 0;
+        const shared::MarchPath path = path_of(number, variant);
         constexpr float kFar = 1000;
         shared::MarchPlan plan = shared::march_look(medium, path, {static_cast<float>(footprint_) / kFar, kFar, static_cast<float>(case_.density)});
         plan.footprint = static_cast<float>(footprint_);
         plan.kind = case_.kind;
         plan.axis = std::abs(plan.level.x) > std::abs(plan.level.y) ? 0 : 1;
         shared::march_settle(medium, plan);
-        const float variant = std::floor(static_cast<float>(random(4)) * medium.size.w);
-        return walk(path, plan, factor, variant);
-    }
-
-    [[nodiscard]] double walk(const shared::MarchPath& path, const shared::MarchPlan& plan, float factor, float variant) const {
-        const shared::MarchMedium& medium = data_.medium;
         const Reader reader(plan.kind == kMarchColumns ? data_.columns : data_.slabs[plan.kind], plan.kind == kMarchColumns);
-        const float scale = factor * plan.density;
+        const float scale = factor * plan.density, steepness = shared::march_steepness(medium, plan, path.way.y);
         shared::MarchWalk at = shared::march_begin(path);
-        double through = 1, light = 0;
-        for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, at); ++n) {
+        const shared::Light light = sun_from(0); // its height alone counts on the way
+        shared::GrassSums sums = shared::march_nothing();
+        double through = 1;
+        Marched out;
+        for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, at) && through > shared::kMarchEnd; ++n) {
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
-            const glm::vec3 texel = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
-            const double passed = std::exp(-scale * step.depth * reader.density(texel, step.mip - shared::march_base(plan.kind)));
-            light += through * (1 - passed) * light_at(step.rest.y, medium.size.y);
-            through *= passed;
-            if (through < shared::kMarchEnd) {
-                return light / (1 - through);
-            }
+            const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
+            const Texel texel = reader.at(place, step.mip - shared::march_base(plan.kind));
+            const double lost = through * (1 - std::exp(-scale * step.depth * texel.density));
+            const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
+            const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
+            out.found += lost * found_at(height, 1);
+            shared::march_gather(sums, light, light.to_sun.y,
+                                 {glm::vec3(tint * texel.albedo / whole), shared::march_fibre(medium, step, texel.tangent / whole), height, static_cast<float>(lost)});
+            through -= lost;
         }
-        return light + through * kGroundLight;
+        out.seen = 1 - through;
+        if (light_too)
+            out.light = radiance_of(medium, sums, plan, -path.way);
+        const double whole = through < shared::kMarchEnd ? 1 / out.seen : 1;
+        return {out.found * whole, out.seen * whole, out.light * whole};
     }
 
     const MarchData& data_;
@@ -140,7 +202,7 @@ double true_mean(const MarchData& data, const HeightCaster& truth, const Case& w
     for (int i = 0; i < rays; ++i) {
         const SampleRay ray = sample_ray(i, std::min(which.elevation_deg, 89.9), data.medium.size.x, canopy);
         const std::optional<double> height = truth(ray, static_cast<std::uint64_t>(i), which.density);
-        sum += height ? light_at(*height, canopy) : kGroundLight;
+        sum += height ? found_at(*height, canopy) : 0;
     }
     return sum / rays;
 }
@@ -149,7 +211,7 @@ double fit_one(const MarchMean& march, double wanted) {
     double low = kLeast, high = kMost;
     for (int i = 0; i < kHalvings; ++i) {
         const double middle = std::sqrt(low * high);
-        (march.at(middle) < wanted ? low : high) = middle;
+        (march.at(middle).found < wanted ? low : high) = middle;
     }
     return std::sqrt(low * high);
 }
@@ -164,41 +226,59 @@ template<std::size_t N> double between(const std::array<double, N>& nodes, const
     return values.back();
 }
 
+void report_factors(const std::vector<std::array<double, kMips.size()>>& found) {
+    constexpr std::size_t kKinds = shared::kMarchSets + 1, kElevations = kElevationsDeg.size();
+    for (const std::size_t table : {std::size_t{0}, grass::kMarchDensities.size()})
+        for (std::size_t kind = 0; kind < kKinds; ++kind)
+            for (std::size_t e = 0; e < kElevations; ++e) {
+                std::string text = fmt::format("march: {}, kind {}, {:2.0f} deg:", table == 0 ? "depth" : "light", kind, kElevationsDeg[e]);
+                for (const double factor : found[(table * kElevations + e) * kKinds + kind])
+                    text += fmt::format(" {:.2f}", factor);
+                base::log_debug(text);
+            }
+}
+
 } // namespace
 
 std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads) {
     const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 40);
     constexpr std::size_t kKinds = shared::kMarchSets + 1, kElevations = kElevationsDeg.size();
     constexpr std::size_t kDensities = grass::kMarchDensities.size();
-    // [density][elevation][kind][mip]
-    std::vector<std::array<double, kMips.size()>> found(kDensities * kElevations * kKinds);
+    // [depth, light][density][elevation][kind][mip]
+    constexpr std::size_t kTable = kDensities * kElevations * kKinds;
+    std::vector<std::array<double, kMips.size()>> found(2 * kTable);
     parallel_for(kDensities * kElevations, resolve_threads(threads), [&](std::size_t i, int) {
         const double density = grass::kMarchDensities[i / kElevations], elevation = kElevationsDeg[i % kElevations];
         const double wanted = true_mean(data, truth, {0, 0, elevation, density}, true_rays);
+        std::array<std::array<double, kMips.size()>, kKinds> light{}; // mean of what is seen
         for (std::size_t kind = 0; kind < kKinds; ++kind)
             for (std::size_t m = 0; m < kMips.size(); ++m) {
                 auto& row = found[i * kKinds + kind];
                 const bool rare = kind != kMarchColumns && (elevation > 75 || kMips[m] > 6); // columns show such views
-                row[m] = rare && m > 0 ? row[m - 1] : fit_one(MarchMean(data, {static_cast<int>(kind), kMips[m], elevation, density}, marched), wanted);
+                const MarchMean march(data, {static_cast<int>(kind), kMips[m], elevation, density}, marched);
+                row[m] = rare && m > 0 ? row[m - 1] : fit_one(march, wanted);
+                const Marched seen = march.at(row[m], true);
+                light[kind][m] = seen.light / std::max(seen.seen, 1e-9);
             }
+        for (std::size_t kind = 0; kind < kKinds; ++kind) // as bright as the columns' coarsest mip, which the set's far light corrects
+            for (std::size_t m = 0; m < kMips.size(); ++m)
+                found[kTable + i * kKinds + kind][m] = std::clamp(light[kMarchColumns].back() / std::max(light[kind][m], 1e-9), kDarkest, 1 / kDarkest);
     });
     std::vector<float> table;
-    for (std::size_t d = 0; d < kDensities; ++d)
+    const auto value = [&](std::size_t which, std::size_t kind, int half, int step) {
+        std::array<double, kElevations> at{};
+        for (std::size_t e = 0; e < kElevations; ++e)
+            at[e] = between(kMips, found[(which * kElevations + e) * kKinds + kind], 0.5 * half);
+        return static_cast<float>(between(kElevationsDeg, at, 5.0 * step));
+    };
+    for (std::size_t kind = 0; kind < kKinds; ++kind)
         for (int half = 0; half < shared::kMarchMips; ++half)
             for (int step = 0; step < shared::kMarchElevations; ++step)
-                for (std::size_t kind = 0; kind < kKinds; ++kind) {
-                    std::array<double, kElevations> at{};
-                    for (std::size_t e = 0; e < kElevations; ++e)
-                        at[e] = between(kMips, found[(d * kElevations + e) * kKinds + kind], 0.5 * half);
-                    table.push_back(static_cast<float>(between(kElevationsDeg, at, 5.0 * step)));
+                for (std::size_t density = 0; density < kDensities; ++density) {
+                    table.push_back(value(density, kind, half, step));
+                    table.push_back(value(kDensities + density, kind, half, step));
                 }
-    for (std::size_t kind = 0; kind < kKinds; ++kind)
-        for (std::size_t e = 0; e < kElevations; ++e) {
-            std::string text = fmt::format("march: kind {}, {:2.0f} deg:", kind, kElevationsDeg[e]);
-            for (const double factor : found[e * kKinds + kind])
-                text += fmt::format(" {:.2f}", factor);
-            base::log_debug(text);
-        }
+    report_factors(found);
     return table;
 }
 

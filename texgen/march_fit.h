@@ -14,7 +14,7 @@ namespace sward::texgen {
 /// Height (m) at which a ray that comes down from the canopy's top meets grass of at most this density; none: the ground.
 using HeightCaster = std::function<std::optional<double>(const SampleRay& ray, std::uint64_t number, double density)>;
 
-/// Table of factors: densities kMarchDensities x half mips x elevations x kinds (the last fastest). `rays`: of a view, at most (kFarRays); time grows
+/// FarMedium::correction. `rays`: of a view, at most (kFarRays); time grows
 /// with them up to some 6,000.
 [[nodiscard]] std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads);
 

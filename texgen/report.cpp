@@ -171,6 +171,13 @@ SetReport report_of(const grass::GrassSet& set, const std::string& path,
     }
     for (const grass::Species& species : set.species)
         r.species.push_back(fmt::format("{} ({}) {}", species.name, species.element, percent(species.share)));
+    const auto add_march = [&](const std::string& name, const grass::TextureArray& array) { r.gpu_bytes += unpacked(name, array_bytes(array)); };
+    add_march(grass::kColumnsFile, set.march.columns.density);
+    add_march(grass::kColumnFibresFile, set.march.columns.fibres);
+    for (int k = 0; k < shared::kMarchSets; ++k) {
+        add_march(grass::slabs_file(k), set.march.slabs[static_cast<std::size_t>(k)].density);
+        add_march(grass::slab_fibres_file(k), set.march.slabs[static_cast<std::size_t>(k)].fibres);
+    }
     r.gpu_bytes += set.blades.size() * sizeof(shared::BladeRecord);
     return r;
 }

@@ -67,6 +67,8 @@ ordered_json march_json(const grass::FarMedium& march) {
         out["level_tint"].push_back(rgb(march.medium.level_tint[i]));
         out["steep_tint"].push_back(rgb(march.medium.steep_tint[i]));
     }
+    for (const shared::vec4& heights : march.medium.slopes)
+        out["slopes"].push_back(numbers(heights));
     out["look"] = numbers(march.medium.look);
     out["translucency"] = decimal(march.medium.size.z);
     return out;

@@ -19,6 +19,7 @@
 #define BIND_DRAW_COMMANDS 4   // DrawCommand[]: one a workgroup
 #define BIND_CULL_TOTAL 5      // uint[CULL_COUNTS]: survivors of all batches, and what each test took
 #define BIND_TERRAIN_BLOCKS 6  // TerrainBlock[]
+#define BIND_MARCH_COUNTS 5    // uint[2]: steps of the march, texels that it read; beside no total
 #define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
 #define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
 
@@ -87,10 +88,11 @@
 #define TEX_DEPTH_PYRAMID 13   // R32F: farthest depth of the opaque scene, a level a mip
 #define TEX_MARCH_DENSITY 16   // RGBA16F array of one kind of march: albedo times density, density
 #define TEX_MARCH_FIBRES 17    // RGBA8 array, likewise: mean tangent and rank
-#define TEX_MARCH_CORRECTION 18 // RGBA32F array: factors on the optical depth by elevation, half mip; density; a channel a kind
+#define TEX_MARCH_CORRECTION 18 // RGBA32F array: factors on optical depth and light for two densities, by elevation, half mip; kind
 #define TEX_CANOPY_DEPTH 19    // depth of the canopy's upper surface
 #define TEX_CANOPY_GROUND 20   // RGBA16F: slope of the ground under it, density, tint
 #define TEX_CANOPY_AIR 21      // RGBA16F: wind, canopy_sway
+#define TEX_MARCH_LIGHT 24     // RGBA16F array: factors on the march's light by view azimuth, elevation; wind
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list

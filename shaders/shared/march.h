@@ -176,7 +176,7 @@ struct MarchPlan {
     float tap;       // length of the ray that it stands for (m)
     float stretch;   // the same over the ground (m)
     float run;       // length of the ray between 5 and 75 percent of what it sees (m)
-    float elevation; // of the ray among the resting blades (degrees)
+    float elevation; // of the ray among the resting blades, over the ground's plane (degrees)
     vec2 level;      // its direction over the ground, for a metre of the ray
     vec2 table;      // place in the correction table: half mips, elevation in steps of 5 degrees
 };
@@ -207,14 +207,16 @@ SHARED_FN MarchPlan march_look(MARCH_MEDIUM MarchPath path, vec3 pixel_before_de
     plan.density = max(pixel_before_density.z, 1e-3f);
     vec3 velocity = march_velocity(path, 0.6f * medium.size.y, 0.0f);
     plan.level = vec2(velocity.x, velocity.z);
-    plan.elevation = atan(abs(velocity.y) / max(length(plan.level), 1e-4f)) * (180.0f / kPi);
+    // Over the ground, which may slope: images and tables lie in its plane. Blades do not: what they cover is by the ray's own way.
+    float fall = abs(path.height.y) / max(march_turn(path.bend.z * 0.6f * medium.size.y).y, 0.05f);
+    plan.elevation = atan(fall / max(length(plan.level), 1e-4f)) * (180.0f / kPi);
     float at = plan.elevation / 5.0f;
     int row = clamp(int(at), 0, kMarchElevations - 2);
     vec4 view = mix(medium.views[row], medium.views[row + 1], at - float(row));
     plan.seen = 1.0f - exp(-clamp(plan.density * view.w / max(-path.height.y, 0.02f), 1e-4f, 20.0f));
     float half_way = march_reach(path, view.y);
     plan.footprint = max((pixel_before_density.y + half_way) * pixel_before_density.x, 1e-5f);
-    plan.tap = plan.footprint / max(abs(velocity.y), 0.02f);
+    plan.tap = plan.footprint / max(fall, 0.02f);
     plan.stretch = plan.tap * length(plan.level);
     plan.run = march_reach(path, view.z) - march_reach(path, view.x);
     plan.kind = kMarchColumns;

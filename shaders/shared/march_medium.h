@@ -27,11 +27,15 @@ struct MarchMedium {
     // By elevation of a ray on level ground in a calm, 0, 5 .. 90 degrees: heights (m) above which 5, 50 and 75 percent of what it sees lie;
     // its whole mean optical depth, times the sine of the elevation.
     vec4 views[kMarchElevations];
+    // By elevation of a ray over the ground's plane, likewise: how far the blades that it sees lean toward the eye (sine, mean) where the ground
+    // falls by half a metre a metre along the ray, is level, and rises so; w: by how much higher they stand at rest, of the canopy's height, where it
+    // rises so than on level ground. Blades stand upright on any ground: one that leans downhill stands higher over the ground under its tip than it is long.
+    vec4 slopes[kMarchElevations];
     vec4 look; // kd, pd, ks, ps of G4: means of the species by what is seen of them
     vec4 size; // side of the patch (m); canopy (m); translucency, likewise; variants
 };
 #ifdef __cplusplus
-static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + kMarchElevations + 2));
+static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + 2 * kMarchElevations + 2));
 #endif
 
 // Depth that stands for a kind (a crest's: that of rays which may leave the canopy again): each is a pass over the pixels that have it.

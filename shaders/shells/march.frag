@@ -5,39 +5,56 @@
 #include "lib/resolved.glsl"
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
+#include "shared/march_light.h"
 
 layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities;
 layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres;
 layout(binding = TEX_MARCH_CORRECTION) uniform sampler2DArray correction;
+layout(binding = TEX_MARCH_LIGHT) uniform sampler2DArray light_factors;
 uniform int kind;
 in vec2 ndc;
+#ifdef COUNT
+layout(early_fragment_tests) in; // a shader that writes to memory would run for pixels of other kinds too
+layout(std430, binding = BIND_MARCH_COUNTS) buffer Counts { uint all_steps; uint all_reads; };
+const int kReadsAPixel = 17; // choice and march: canopy 3 each, depths 4, correction 1, factors on light 2, colours 4
+int steps_taken = 0, texels_read = kReadsAPixel;
+#endif
 
 const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
 const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
-const float kFibresFrom = 3.5, kFibresTo = 4.5; // mips: beyond, tangents are the layer's mean
-const float kOtherDensity = 0.4;  // of the correction's second image
+const float kOtherDensity = 0.4;  // of the correction's second factors
 
 // What the march has gathered.
 struct Seen {
-    GrassSums grass;  // tangent: a sum, not yet an axis
-    vec4 through;     // share of each sample's light that comes through
-    float half_way;   // distance at which half of the light is gone (m)
+    GrassSums grass;
+    vec4 through;    // share of each sample's light that comes through
+    float half_way;  // distance at which half of the light is gone (m)
 };
-
-Seen nothing_seen(vec4 through) {
-    return Seen(GrassSums(vec3(0.0), vec3(0.0), 0.0, vec3(0.0), 1.0), through, kNever);
-}
 
 float mean_of(vec4 samples_of_a_pixel) {
     return dot(samples_of_a_pixel, vec4(0.25));
 }
 
-float correction_at(MarchPlan plan) {
+// Factors on the optical depth and on the light.
+vec2 correction_at(MarchPlan plan) {
     vec2 size = vec2(float(kMarchElevations), float(kMarchMips));
     vec2 uv = (vec2(plan.table.y, plan.table.x) + 0.5) / size;
     float thin = clamp((1.0 - plan.density) / (1.0 - kOtherDensity), 0.0, 1.3);
-    return max(mix(textureLod(correction, vec3(uv, 0.0), 0.0)[kind], textureLod(correction, vec3(uv, 1.0), 0.0)[kind], thin), 0.05);
+    vec4 factors = textureLod(correction, vec3(uv, float(kind)), 0.0);
+    return max(mix(factors.xy, factors.zw, thin), vec2(0.05));
+}
+
+// What the mean light of such a view is to be multiplied by (shells/march_light.h).
+vec3 light_factor(View view, Entry entry, float elevation) {
+    vec2 eye = -view.way.xz + vec2(1e-5, 0.0);
+    vec2 sun = frame.light.to_sun.xz + vec2(1e-5, 0.0);
+    float azimuth = atan(eye.x * sun.y - eye.y * sun.x, dot(eye, sun)) / (2.0 * kPi);
+    vec2 size = vec2(textureSize(light_factors, 0));
+    vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
+    float gust = far_wind_place(frame.wind, entry.air.xy);
+    float calmer = min(floor(gust), float(kFarWinds - 2));
+    return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).rgb, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).rgb, gust - calmer);
 }
 
 vec3 texel_place(MarchPlan plan, MarchStep taken) {
@@ -48,11 +65,11 @@ vec3 texel_place(MarchPlan plan, MarchStep taken) {
 
 // Mean tangent of the blades at a step, as the wind turns them: read where a pixel tells blades apart, else the layer's.
 vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float mip) {
-    vec4 texel = textureLod(fibres, uv, mip);
-    vec3 upright = mix(vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0), vec3(0.0, medium.layers[taken.layer].x, 0.0),
-                       smoothstep(kFibresFrom, kFibresTo, taken.mip));
-    vec2 turn = march_turn(path.bend.z * taken.rest.y);
-    return vec3(upright.x, 0.0, upright.z) + upright.y * vec3(path.bend.x * turn.x, turn.y, path.bend.y * turn.x);
+    vec4 texel = vec4(0.0);
+    if (taken.mip < kFibresTo) {
+        texel = textureLod(fibres, uv, mip);
+    }
+    return march_turned(path, taken.rest.y, march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0)));
 }
 
 // Share of the blades there that the near tier leaves.
@@ -61,54 +78,32 @@ float far_share(vec3 world) {
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
 }
 
-// What the sums hold, as radiance.
-vec3 light_of(Seen seen, View view, Entry entry) {
-    Light light = light_in_sway(frame.light, entry.air.zw);
-    GrassSums grass = seen.grass;
-    float shown = max(grass.along, 1e-6);
-    float evenness = length(grass.tangent);
-    grass.along = along_axis(evenness / shown);
-    grass.tangent /= max(evenness, 1e-6);
-    vec3 tint = sward_tint(entry.ground.w);
-    grass.sunlit *= tint;
-    grass.skylit *= tint;
-    return shade_sums(medium.look, medium.size.z, light, grass, -view.way);
-}
-
-// Adds a step's blades, `shown` of the pixel, to the sums.
-void gather(inout Seen seen, MarchStep taken, vec4 texel, vec3 tangent, vec3 tint_slope_shown) {
-    float height = taken.rest.y / frame.patch_grid.w;
-    float shown = tint_slope_shown.z;
-    vec3 albedo = texel.rgb * (shown / max(texel.a, 1e-4));
-#ifdef COLUMNS
-    albedo *= mix(medium.level_tint[taken.layer], medium.steep_tint[taken.layer], tint_slope_shown.x).rgb;
-#endif
-    float sun = canopy_sun(frame.light, height, tint_slope_shown.y);
-    seen.grass.sunlit += albedo * sun;
-    seen.grass.skylit += albedo * canopy_sky(frame.light, height);
-    seen.grass.sun += shown * sun;
-    seen.grass.tangent += tangent * shown;
-    seen.grass.along += shown; // until light_of: the share of the pixel
-}
-
-// The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end.
-MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen) {
+// The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end. `radiance`: of
+// what was seen of it.
+MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen, out vec3 radiance) {
     MarchPlan plan = plan_of(view, entry, path);
     plan.kind = kind;
     march_settle(plan);
-    float scale = plan.density * correction_at(plan) * step(0.0021, entry.ground.z);
+    vec2 factors = correction_at(plan);
+    float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
+    Light light = light_in_sway(frame.light, entry.air.zw);
     vec3 normal = normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
-    vec3 crossed = abs(vec3(medium.edges[0]) * vec3(plan.level.x, view.way.y, plan.level.y));
-    vec3 tint_slope_shown = vec3(crossed.y / max(crossed.x + crossed.y + crossed.z, 1e-6), dot(normal, frame.light.to_sun.xyz), 0.0);
-    seen.grass.along = 0.0;
+    float slope = dot(normal, light.to_sun.xyz);
+    float steepness = march_steepness(plan, view.way.y);
     float ground = kOnGround * min(path.height.x / max(-path.height.y, 1e-4), kNever);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
+    seen.grass = march_nothing();
 #ifdef CREST
     MarchWalk walk = march_begin_inside(path);
 #else
     MarchWalk walk = march_begin(path);
 #endif
-    for (int n = 0; n < kMarchSteps && march_inside(path, walk) && mean_of(seen.through) > kMarchEnd; ++n) {
+    float before_it = near_reach() - entry.distance;
+    if (before_it > 0.0) {
+        march_advance(path, walk, vec3(before_it, 1e9, scale));
+    }
+    float last = max(max(ends.x, ends.y), max(ends.z, ends.w));
+    for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last && mean_of(seen.through) > kMarchEnd; ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         vec3 uv = texel_place(plan, taken);
         float mip = taken.mip - march_base(kind);
@@ -118,12 +113,25 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         depth *= far_share(frame.eye.xyz + view.way * middle);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
-        tint_slope_shown.z = mean_of(lost);
-        gather(seen, taken, texel, mean_tangent(path, taken, uv, mip), tint_slope_shown);
+        vec3 albedo = texel.rgb / max(texel.a, 1e-4);
+#ifdef COLUMNS
+        albedo *= march_tint(taken.layer, steepness);
+#endif
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, mip), taken.rest.y / frame.patch_grid.w, mean_of(lost)));
         float before = mean_of(seen.through);
         seen.through -= lost;
         seen.half_way = before > 0.5 && mean_of(seen.through) <= 0.5 ? middle : seen.half_way;
+#ifdef COUNT
+        ++steps_taken;
+        texels_read += taken.mip < kFibresTo ? 2 : 1;
+#endif
     }
+    float level = length(view.way.xz);
+    float fall = -path.height.y;
+    float rise = dot(entry.ground.xy, view.way.xz) / max(level, 1e-4);
+    march_stand(seen.grass, light, MarchGround(atan(max(fall, 0.0), level) * (180.0 / kPi), rise, slope), -view.way);
+    radiance = march_radiance(light, seen.grass, -view.way) * factors.y * sward_tint(entry.ground.w) *
+               light_factor(view, entry, clamp(fall * inversesqrt(fall * fall + level * level), 0.0, 1.0));
     return walk;
 }
 
@@ -185,12 +193,13 @@ void main() {
 #else
     if (entry.distance < farthest) {
 #endif
-        Seen seen = nothing_seen(through);
+        Seen seen = Seen(march_nothing(), through, kNever);
         MarchPath path = path_of(view, entry);
-        MarchWalk walk = march(view, entry, path, scene, seen);
+        vec3 grass;
+        MarchWalk walk = march(view, entry, path, scene, seen, grass);
         half_way = min(half_way, seen.half_way);
         vec4 haze = haze_of(frame.light, view.way * min(seen.half_way, entry.distance + 1.0));
-        radiance += light_of(seen, view, entry) * haze.a + haze.rgb * mean_of(through - seen.through);
+        radiance += grass * haze.a + haze.rgb * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
         entry = entry_after(view, entry, path, walk, farthest);
@@ -219,4 +228,8 @@ void main() {
         out_normal = vec4(normal, 0.0);
 #endif
     }
+#ifdef COUNT
+    atomicAdd(all_steps, uint(steps_taken));
+    atomicAdd(all_reads, uint(texels_read));
+#endif
 }

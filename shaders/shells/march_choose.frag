@@ -12,6 +12,10 @@ void main() {
     gl_FragDepth = 0.0;
     if (entry.distance < kNever) {
         MarchPath path = path_of(view, entry);
-        gl_FragDepth = kind_depth(plan_of(view, entry, path).kind, at_crest(path));
+        bool crest = at_crest(path);
+        float ground = path.height.x / max(-path.height.y, 1e-4);
+        if (crest || entry.distance + 1.2 * ground > near_reach()) { // the ground curves a little
+            gl_FragDepth = kind_depth(plan_of(view, entry, path).kind, crest);
+        }
     }
 }

@@ -89,6 +89,12 @@ bool at_crest(MarchPath path) {
     return eye_place.x > 0.5 || a >= 0.0 || 4.0 * path.height.z * path.height.x > 0.5 * a * a;
 }
 
+// So far from the eye all blades are the near tier's (m).
+float near_reach() {
+    float aside = distance(frame.lod_eye.xyz, frame.eye.xyz); // in tests alone
+    return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 0.0 : max(frame.handover.x - aside, 0.0);
+}
+
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
     MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(entry.ground.z, 0.002)));

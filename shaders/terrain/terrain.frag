@@ -45,7 +45,10 @@ void main() {
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
     left_shells *= frame.grass.z; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
-    Canopy canopy = canopy_from_afar(to_eye, ground.normal);
+    Canopy canopy = Canopy(vec4(0.0), vec4(0.0));
+    if (left_shells > 0.0) {
+        canopy = canopy_from_afar(to_eye, ground.normal);
+    }
     float coverage = 1.0 - pow(1.0 - min(canopy.sun.a, 0.999), ground.density * left_shells);
     // The table is of flat ground.
     float slope = dot(ground.normal, frame.light.to_sun.xyz);

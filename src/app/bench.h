@@ -55,4 +55,8 @@ void bench_physics(BenchReport& report);
 /// scene does. Needs a current context.
 void bench_near(BenchReport& report, const Options& options);
 
+/// Suite `far`: the driver's view with the march and with the planes, in turns, and what its rays read; frames on a small land and on a large one.
+/// Throws Error as loading a scene does. Needs a current context.
+void bench_far(BenchReport& report, const Options& options);
+
 } // namespace sward::app

@@ -23,10 +23,13 @@ void run_bench(const Options& options) {
         require_place(options.bench_json);
     const gl::HeadlessContext context;
     BenchReport report;
-    if (options.bench_suite != "near")
+    const auto asked = [&](const char* suite) { return options.bench_suite == "all" || options.bench_suite == suite; };
+    if (asked("wind"))
         bench_wind(report);
-    if (options.bench_suite != "wind")
+    if (asked("near"))
         bench_near(report, options);
+    if (asked("far"))
+        bench_far(report, options);
 
     using Json = nlohmann::ordered_json;
     Json rows = Json::array(), figures = Json::array(), checks = Json::array();

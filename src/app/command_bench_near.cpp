@@ -19,6 +19,7 @@ namespace sward::app {
 namespace {
 
 constexpr int kFrames = 2; // that count, after one that builds caches
+constexpr glm::ivec2 kSize{512, 384};
 constexpr int kTurns = 4;  // of each number of blades
 constexpr double kStep_s = 1.0 / 60;
 constexpr double kLinear = 1.5; // of the time a blade: more blades leave the processor's cache, which in software costs a quarter to a third
@@ -42,7 +43,7 @@ class Stage {
 public:
     /// `start_s`: of the first frame.
     Stage(scene::Scene scene, const Options& options, const char* camera = "default", double start_s = 0)
-        : renderer_(load_world(scene)), size_(options.bench_width, options.bench_height), frame_(static_cast<int>(std::lround(start_s / kStep_s))) {
+        : renderer_(load_world(scene)), size_(options.bench_size.x > 0 ? options.bench_size : kSize), frame_(static_cast<int>(std::lround(start_s / kStep_s))) {
         small(false);
         settings_.simulated_radius_m = 1e6;
         settings_.most_simulated_bytes = kPool;

@@ -37,7 +37,7 @@ constexpr std::array<std::pair<std::string_view, HandoverMode>, 4> kHandovers = 
 constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
     {{"1", 1}, {"2", 2}, {"4", 4}}};
 
-constexpr std::array<std::pair<std::string_view, const char*>, 3> kSuites = {{{"all", "all"}, {"near", "near"}, {"wind", "wind"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 4> kSuites = {{{"all", "all"}, {"far", "far"}, {"near", "near"}, {"wind", "wind"}}};
 
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
@@ -157,6 +157,9 @@ void declare_render(CLI::App& app, Options* o) {
             "color,depth,tier,coverage,tangent,normal,rank: channels of an .exr",
             [=](const std::string& text) { o->aovs = parse_aovs("--aov", text); });
     declare_path(app, "--stats", "FILE", "times and counts as JSON", &o->stats);
+    app.add_flag("--wait-in-passes", o->frame.wait_in_passes,
+                 "each pass of --stats waits for the GPU: its time is its own, in software too; costs the overlap of passes");
+    app.add_flag("--count-steps", o->frame.count_steps, "--stats counts the steps of the far field's rays and the texels that they read; slower");
     declare(app, "--path", "NAME", "a camera path of the scene", [=](const std::string& text) {
         if (text.empty())
             throw option_error("--path", text, "a path of the scene");
@@ -210,11 +213,11 @@ void declare_wind(CLI::App& app, Options* o) {
 }
 
 void declare_bench(CLI::App& app, Options* o) {
-    declare(app, "SUITE", "all|near|wind", "what is measured; default all",
+    declare(app, "SUITE", "all|far|near|wind", "what is measured; default all",
             [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
     declare_path(app, "--json", "FILE", "the figures as JSON", &o->bench_json);
-    declare(app, "--size", "WxH", "pixels of the near suite; default 512x384", [=](const std::string& text) {
-        std::tie(o->bench_width, o->bench_height) = parse_size("--size", text);
+    declare(app, "--size", "WxH", "pixels of the suites far and near; default 1280x720 and 512x384", [=](const std::string& text) {
+        std::tie(o->bench_size.x, o->bench_size.y) = parse_size("--size", text);
     });
     app.add_flag("--full", o->bench_full, "the near suite with seven million blades too: a gigabyte, minutes in software");
 }

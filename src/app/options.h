@@ -48,8 +48,8 @@ struct Options {
     int warm = 0;
 
     // bench
-    std::string bench_suite = "all"; ///< or wind, near
-    int bench_width = 512, bench_height = 384;
+    std::string bench_suite = "all"; ///< or far, near, wind
+    glm::ivec2 bench_size{0, 0}; ///< 0: each suite's own
     bool bench_full = false;
     std::filesystem::path bench_json; ///< empty: none
 

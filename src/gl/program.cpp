@@ -83,10 +83,28 @@ GLuint build(const std::string& name, const std::vector<std::filesystem::path>& 
     return program;
 }
 
+std::vector<std::pair<std::string, int>> uniforms_of(GLuint program) {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, GL_UNIFORM, GL_ACTIVE_RESOURCES, &count);
+    std::vector<std::pair<std::string, int>> found;
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+        constexpr GLenum kLocation = GL_LOCATION;
+        GLint location = -1;
+        glGetProgramResourceiv(program, GL_UNIFORM, i, 1, &kLocation, 1, nullptr, &location);
+        char name[256];
+        GLsizei length = 0;
+        glGetProgramResourceName(program, GL_UNIFORM, i, sizeof name, &length, name);
+        if (location >= 0) { // members of blocks have none
+            found.emplace_back(std::string(name, static_cast<std::size_t>(length)), location);
+        }
+    }
+    return found;
+}
+
 } // namespace
 
 Program::Program(std::string name, std::vector<std::filesystem::path> stages, std::vector<std::string> defines)
-    : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)), id_(build(name_, stages_, defines_)) {}
+    : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)), id_(build(name_, stages_, defines_)), locations_(uniforms_of(id_)) {}
 
 Program::~Program() {
     if (id_) {
@@ -96,34 +114,45 @@ Program::~Program() {
 
 Program::Program(Program&& other) noexcept
     : name_(std::move(other.name_)), stages_(std::move(other.stages_)), defines_(std::move(other.defines_)),
-      id_(std::exchange(other.id_, 0)) {}
+      id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(stages_, other.stages_);
     std::swap(defines_, other.defines_);
     std::swap(id_, other.id_);
+    std::swap(locations_, other.locations_);
     return *this;
 }
 
 void Program::use() const { glUseProgram(id_); }
 
+int Program::location(const char* uniform) const {
+    for (const auto& [name, at] : locations_) {
+        if (name == uniform) {
+            return at;
+        }
+    }
+    return -1; // one that the compiler left out
+}
+
 void Program::reload() {
     const GLuint fresh = build(name_, stages_, defines_);
     glDeleteProgram(std::exchange(id_, fresh));
+    locations_ = uniforms_of(id_);
 }
 
 void Program::set(const char* uniform, int value) const {
-    glProgramUniform1i(id_, glGetUniformLocation(id_, uniform), value);
+    glProgramUniform1i(id_, location(uniform), value);
 }
 void Program::set(const char* uniform, float value) const {
-    glProgramUniform1f(id_, glGetUniformLocation(id_, uniform), value);
+    glProgramUniform1f(id_, location(uniform), value);
 }
 void Program::set(const char* uniform, const glm::vec4& value) const {
-    glProgramUniform4f(id_, glGetUniformLocation(id_, uniform), value.x, value.y, value.z, value.w);
+    glProgramUniform4f(id_, location(uniform), value.x, value.y, value.z, value.w);
 }
 void Program::set(const char* uniform, const glm::ivec4& value) const {
-    glProgramUniform4i(id_, glGetUniformLocation(id_, uniform), value.x, value.y, value.z, value.w);
+    glProgramUniform4i(id_, location(uniform), value.x, value.y, value.z, value.w);
 }
 
 } // namespace sward::gl

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -31,10 +32,12 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }
 
 private:
+    [[nodiscard]] int location(const char* uniform) const;
     std::string name_;
     std::vector<std::filesystem::path> stages_;
     std::vector<std::string> defines_;
     std::uint32_t id_ = 0;
+    std::vector<std::pair<std::string, int>> locations_; ///< of the uniforms that it has: looked up once, for drivers search for names slowly
 };
 
 } // namespace sward::gl

@@ -8,7 +8,7 @@
 
 namespace sward::grass {
 
-/// RGBA32F, elevations wide and half mips tall, an image a density; channels are kinds. No mips.
+/// RGBA32F, elevations wide and half mips tall, an image a kind; channels: factor on depth, on light, of the one density, of the other. No mips.
 [[nodiscard]] TextureArray encode_correction(const FarMedium& march);
 
 /// Checks every factor; `name` is for messages. Throws base::Error(kBadInput).

@@ -82,13 +82,14 @@ struct FarMedium {
     MarchArrays columns; ///< variants * kMarchLayers; u along x, v along z
     /// Set k: variants * 2 axes * (kFinestSlabs >> k); u along the slab, v up from the ground to the canopy's top.
     std::array<MarchArrays, shared::kMarchSets> slabs;
-    /// Factors on the optical depth: kMarchDensities x half mips x elevations x kinds, the last fastest.
+    /// Kinds x half mips x elevations x (factor on the optical depth, on the light, for each of kMarchDensities), the last fastest.
     std::vector<float> correction;
 };
 inline constexpr int kMarchRows = 48; ///< of a slab
 inline constexpr std::array<double, 2> kMarchDensities = {1.0, 0.4};
-inline constexpr std::size_t kMarchCorrections =
-    kMarchDensities.size() * shared::kMarchMips * shared::kMarchElevations * (shared::kMarchSets + 1);
+inline constexpr int kMarchKinds = shared::kMarchSets + 1; ///< the sets of slabs, the columns
+inline constexpr std::size_t kMarchFactors = 2 * kMarchDensities.size();
+inline constexpr std::size_t kMarchCorrections = kMarchKinds * shared::kMarchMips * shared::kMarchElevations * kMarchFactors;
 
 /// One of the set's kinds of blades.
 struct Species {

@@ -11,10 +11,9 @@
 #include "grass/bc5.h"
 #include "grass/blades_glb.h"
 #include "grass/grass_set.h"
-#include "grass/far_medium.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
-#include "shared/march.h"
+#include "grass/set_json.h"
 
 namespace sward::grass {
 namespace {
@@ -23,116 +22,9 @@ using base::ExitCode;
 using nlohmann::json;
 namespace fs = std::filesystem;
 
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 30;
 constexpr std::uint64_t kMaxSetBytes = std::uint64_t{2} << 30; // all arrays unpacked
 constexpr int kMaxImages = 256;                                // layers, or slices an axis
 constexpr std::size_t kMaxFarRows = 256;
-
-/// set.json with every access checked.
-class SetJson {
-public:
-    SetJson(const fs::path& path) : path_(path) {
-        const std::string text = base::read_text(path, kMaxSetJsonBytes);
-        check_depth(text);
-        root_ = json::parse(text, nullptr, false);
-        if (!root_.is_object())
-            refuse("JSON", "something else", "a grass set's description");
-    }
-
-    [[noreturn]] void refuse(std::string_view what, const std::string& found,
-                             const std::string& expected) const {
-        throw base::input_error(ExitCode::kBadInput, path_, 0, what, found, expected);
-    }
-    [[noreturn]] void over(std::string_view what, const std::string& found,
-                           const std::string& expected) const {
-        throw base::input_error(ExitCode::kOverLimit, path_, 0, what, found, expected);
-    }
-    const json& root() const { return root_; }
-
-    const json& at(const json& object, const char* key) const {
-        if (!object.is_object() || !object.contains(key))
-            refuse(key, "none", "a value");
-        return object[key];
-    }
-    double number(const json& object, const char* key, double low, double high) const {
-        return in_range(at(object, key), key, low, high);
-    }
-    double in_range(const json& value, const char* key, double low, double high) const {
-        const double v = value.is_number() ? value.get<double>() : std::nan("");
-        if (!(v >= low && v <= high))
-            refuse(key, base::printable(value.dump()),
-                   fmt::format("a number from {} to {}", low, high));
-        return v;
-    }
-    float real(const json& object, const char* key, double low, double high) const {
-        return static_cast<float>(number(object, key, low, high));
-    }
-    int whole(const json& object, const char* key, int low, int high) const {
-        const double v = number(object, key, low, high);
-        if (v != std::floor(v))
-            refuse(key, std::to_string(v), "a whole number");
-        return static_cast<int>(v);
-    }
-    std::string text(const json& object, const char* key) const {
-        const json& value = at(object, key);
-        if (!value.is_string() || value.get_ref<const std::string&>().size() > 128)
-            refuse(key, base::printable(value.dump()), "a short text");
-        return value.get<std::string>();
-    }
-    const json& array(const json& object, const char* key, std::size_t low,
-                      std::size_t high) const {
-        const json& value = at(object, key);
-        if (!value.is_array() || value.size() < low || value.size() > high)
-            refuse(key, value.is_array() ? fmt::format("{} entries", value.size()) : "no list",
-                   fmt::format("{} to {} entries", low, high));
-        return value;
-    }
-    shared::vec4 colour(const json& object, const char* key, float a) const {
-        const json& list = array(object, key, 3, 3);
-        shared::vec4 c(0, 0, 0, a);
-        for (int i = 0; i < 3; ++i) {
-            const json& part = list[static_cast<std::size_t>(i)];
-            const double v = part.is_number() ? part.get<double>() : std::nan("");
-            if (!(v >= 0 && v <= 1))
-                refuse(key, base::printable(part.dump()), "linear reflectance from 0 to 1");
-            c[i] = static_cast<float>(v);
-        }
-        return c;
-    }
-
-private:
-    void check_depth(const std::string& text) const {
-        int depth = 0;
-        for (const char c : text) {
-            depth += c == '{' || c == '[' ? 1 : c == '}' || c == ']' ? -1 : 0;
-            if (depth > 32)
-                refuse("JSON", "deeper nesting", "at most 32 levels");
-        }
-    }
-
-    fs::path path_;
-    json root_;
-};
-
-/// A file of the set, whole and as its writer left it, or an error.
-std::vector<std::byte> verified_file(const SetJson& set, const fs::path& directory,
-                                     const std::string& name) {
-    const json& entry = set.at(set.at(set.root(), "files"), name.c_str());
-    const auto size = static_cast<std::uint64_t>(
-        set.number(entry, "bytes", 0, static_cast<double>(kMaxFileBytes)));
-    const std::string expected = set.text(entry, "sha256");
-    std::vector<std::byte> bytes = base::read_file(directory / name, kMaxFileBytes);
-    if (bytes.size() != size)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size",
-                                fmt::format("{} bytes", bytes.size()),
-                                fmt::format("{} as in {}", size, kSetJson));
-    const std::string found = base::sha256_hex(bytes);
-    if (found != expected)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "SHA-256",
-                                found.substr(0, 16) + "...",
-                                base::printable(expected.substr(0, 16)) + "... as in " + kSetJson);
-    return bytes;
-}
 
 shared::GrassAppearance read_look(const SetJson& set, const json& look) {
     shared::GrassAppearance out;
@@ -237,75 +129,6 @@ void read_far_light(const SetJson& set, const fs::path& directory, GrassSet& out
         set.refuse("elevations_deg", fmt::format("{} others", light.elevations_deg.size()), "those of far");
     decode_far_light(decode_ktx2(verified_file(set, directory, kFarLightFile), directory / kFarLightFile),
                      directory / kFarLightFile, light);
-}
-
-TextureArray read_array(const SetJson& set, const fs::path& directory, const std::string& name,
-                        int images, TexelFormat format = TexelFormat::kRgba8) {
-    TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
-    if (array.layers != images)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images",
-                                std::to_string(array.layers), std::to_string(images));
-    if (array.format != format)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "format", "another",
-                                format == TexelFormat::kBc5 ? "BC5 UNORM" : "RGBA8 UNORM");
-    return array;
-}
-
-std::vector<float> read_numbers(const SetJson& set, const json& object, const char* key, std::size_t count, double high) {
-    std::vector<float> numbers;
-    for (const json& value : set.array(object, key, count, count))
-        numbers.push_back(static_cast<float>(set.in_range(value, key, 0, high)));
-    return numbers;
-}
-
-/// One of the march's arrays: its shape is the reader's to know.
-TextureArray read_march_array(const SetJson& set, const fs::path& directory, const std::string& name, glm::ivec3 shape,
-                              TexelFormat format) {
-    TextureArray array = read_array(set, directory, name, shape.z, format);
-    if (array.width != shape.x || array.height != shape.y)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "size", fmt::format("{} x {}", array.width, array.height),
-                                fmt::format("{} x {}", shape.x, shape.y));
-    return array;
-}
-
-void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
-    const json& march = set.at(set.root(), "march");
-    shared::MarchMedium& medium = out.march.medium;
-    constexpr double kMostArea = 1e6; // m2 over a m2
-    const auto rows = [&](const char* key, std::size_t count, std::size_t numbers, double high) {
-        std::vector<std::vector<float>> out_rows;
-        for (const json& row : set.array(march, key, count, count))
-            out_rows.push_back(read_numbers(set, json{{key, row}}, key, numbers, high));
-        return out_rows;
-    };
-    const auto edges = rows("edges", shared::kMarchLayers + 1, 4, kMostArea);
-    for (std::size_t i = 0; i < edges.size(); ++i) {
-        medium.edges[i] = {edges[i][0], edges[i][1], edges[i][2], edges[i][3]};
-        if (i > 0 && !(edges[i][3] > edges[i - 1][3]))
-            set.refuse("edges", fmt::format("height {} after {}", edges[i][3], edges[i - 1][3]), "rising heights");
-    }
-    const auto layers = rows("layers", shared::kMarchLayers, 2, 1.0001);
-    const auto level = rows("level_tint", shared::kMarchLayers, 3, 10), steep = rows("steep_tint", shared::kMarchLayers, 3, 10);
-    for (std::size_t i = 0; i < layers.size(); ++i) {
-        medium.layers[i] = {layers[i][0], layers[i][1], 0, 0};
-        medium.level_tint[i] = {level[i][0], level[i][1], level[i][2], 0};
-        medium.steep_tint[i] = {steep[i][0], steep[i][1], steep[i][2], 0};
-    }
-    const std::vector<float> look = read_numbers(set, march, "look", 4, 10000);
-    medium.look = {look[0], look[1], look[2], look[3]};
-    medium.size = {out.side_m, out.canopy_m, set.real(march, "translucency", 0, 1), static_cast<float>(out.variants)};
-    shared::fill_views(medium);
-    constexpr int kTexels = shared::kMarchTexels, kRows = kMarchRows;
-    const int columns = kTexels >> shared::kColumnBase;
-    const auto arrays = [&](const std::string& density, const std::string& fibres, glm::ivec3 shape) {
-        return MarchArrays{read_march_array(set, directory, density, shape, TexelFormat::kRgba16f),
-                           read_march_array(set, directory, fibres, shape, TexelFormat::kRgba8)};
-    };
-    out.march.columns = arrays(kColumnsFile, kColumnFibresFile, {columns, columns, out.variants * shared::kMarchLayers});
-    for (int k = 0; k < shared::kMarchSets; ++k)
-        out.march.slabs[k] = arrays(slabs_file(k), slab_fibres_file(k), {kTexels >> k, kRows, out.variants * 2 * (shared::kFinestSlabs >> k)});
-    decode_correction(read_array(set, directory, kCorrectionFile, static_cast<int>(kMarchDensities.size()), TexelFormat::kRgba32f),
-                      directory / kCorrectionFile, out.march);
 }
 
 /// One family of a level: both planes, from one file or, with `shape`, from two.

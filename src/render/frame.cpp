@@ -90,10 +90,14 @@ void Renderer::Impl::simulate(const View& view, const FrameSettings& settings) {
 }
 
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
-    const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
-                                            {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
-                                             shot.constants.mode.x, living(settings) ? &simulation->pages() : nullptr});
-    cull.upload(tiles, counts.blades_considered > 0);
+    {
+        const gl::PassScope pass(timers, "select blades");
+        const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
+                                                {shot.anchor, glm::vec3(shot.constants.lod_eye), glm::vec2(shot.constants.handover),
+                                                 shot.constants.mode.x, living(settings) ? &simulation->pages() : nullptr});
+        cull.upload(tiles, counts.blades_considered > 0);
+        counts.blades_considered += tiles.considered;
+    }
     blade_records.bind_storage(BIND_BLADES);
     for (std::size_t batch = 0; batch < cull.batches(); ++batch) {
         {
@@ -103,7 +107,6 @@ void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot
         const gl::PassScope pass(timers, "draw blades");
         passes(settings.aov).blades.execute(cull, living(settings) ? &living(settings)->pass() : nullptr);
     }
-    counts.blades_considered += tiles.considered;
 }
 
 FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Shot& shot) {
@@ -112,6 +115,9 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
         const gl::PassScope pass(timers, "clipmap");
         clipmap.update({shot.anchor.x + constants.eye.x, shot.anchor.z + constants.eye.z});
         clipmap.bind();
+    }
+    if (rasterises(settings)) {
+        const gl::PassScope pass(timers, "far appearance");
         far_appearance.update(constants.light, constants.wind);
         far_appearance.bind();
     }
@@ -155,12 +161,17 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
 void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, const FieldView& field) {
     shells::MarchPass& march = passes(settings.aov).march;
     {
+        const gl::PassScope pass(timers, "far light");
+        march_light.update(shot.constants.light, shot.constants.wind);
+        march_light.bind();
+    }
+    {
         const gl::PassScope pass(timers, "canopy");
         canopy.require(settings.width, settings.height);
         march.draw_canopy(canopy, static_cast<int>(field.blocks.size()), block_mesh);
     }
     const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
-    const shells::MarchPass::Inputs inputs{march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z))};
+    const shells::MarchPass::Inputs inputs{march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z)), settings.count_steps};
     const gl::PassScope pass(timers, "far field");
     targets.bind_resolved();
     march.choose(inputs);

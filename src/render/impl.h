@@ -16,6 +16,7 @@
 #include "render/targets.h"
 #include "shells/far_appearance.h"
 #include "shells/far_pass.h"
+#include "shells/march_light.h"
 #include "shells/march_pass.h"
 #include "terrain/terrain_pass.h"
 #include "wind/sources.h"
@@ -91,6 +92,7 @@ struct Renderer::Impl {
     shells::CanopyTargets canopy;
     shells::FarTextures far_textures; ///< of the raster schemes, where the world wants them
     shells::FarAppearance far_appearance;
+    shells::MarchLight march_light;
     terrain::BlockMesh block_mesh;
     terrain::BlockSamples block_samples;
     gl::Buffer blade_records, frame_buffer;

@@ -49,6 +49,7 @@ struct FrameSettings {
     int most_physics_steps = 0; ///< in a frame, 0: any number; steps before the last ones are left out
     int most_wind_steps = 0;    ///< of the local window in a frame, 0: any number; it then lags behind the time instead of the frame
     bool wait_in_passes = false; ///< each pass's time is its own, in software too; costs the overlap of passes
+    bool count_steps = false;    ///< of the march (FrameStats::march_steps); costs two atomic additions a pixel
     bool aov = false;           ///< also fill the AOV targets; costs about a third more fill
 };
 
@@ -79,6 +80,8 @@ struct FrameStats {
     std::uint64_t surface_bytes = 0;     ///< of a mesh's blades and of what culls them
     std::uint64_t shell_fragments = 0;   ///< of the march: pixels whose ray went through columns; of the planes: that were written
     std::uint64_t slice_fragments = 0;   ///< likewise through slabs; slices
+    std::uint64_t march_steps = 0;       ///< of all its rays, where FrameSettings::count_steps asks
+    std::uint64_t march_reads = 0;       ///< texels that it fetched, likewise
     std::uint64_t gpu_bytes = 0;         ///< buffers and textures alive
 };
 

@@ -26,21 +26,31 @@ void CanopyTargets::bind_textures() const {
 
 namespace {
 
-std::vector<std::string> variant(bool aov, std::vector<std::string> defines) {
+gl::Program marcher(const char* name, bool aov, bool count, std::vector<std::string> defines) {
     if (aov) {
         defines.emplace_back("AOV");
     }
-    return defines;
+    if (count) {
+        defines.emplace_back("COUNT");
+    }
+    return {name, {"shells/march.vert", "shells/march.frag"}, defines};
 }
 
 } // namespace
 
+MarchPass::Kinds::Kinds(bool aov, bool count)
+    : columns(marcher("columns", aov, count, {"COLUMNS"})), slabs(marcher("slabs", aov, count, {})),
+      crest_columns(marcher("columns at crests", aov, count, {"COLUMNS", "CREST"})), crest_slabs(marcher("slabs at crests", aov, count, {"CREST"})) {}
+
+void MarchPass::Kinds::reload() {
+    for (gl::Program* program : {&columns, &slabs, &crest_columns, &crest_slabs}) {
+        program->reload();
+    }
+}
+
 MarchPass::MarchPass(bool aov)
     : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}), choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}),
-      columns_("columns", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS"})),
-      slabs_("slabs", {"shells/march.vert", "shells/march.frag"}, variant(aov, {})),
-      crest_columns_("columns at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS", "CREST"})),
-      crest_slabs_("slabs at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"CREST"})) {
+      kinds_(aov, false), aov_(aov), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
@@ -56,6 +66,11 @@ glm::uvec2 MarchPass::pixels() const {
         glGetQueryObjectuiv(queries_[static_cast<std::size_t>(i)], GL_QUERY_RESULT, &passed[i]);
     }
     return passed;
+}
+
+glm::uvec2 MarchPass::work() const {
+    const std::vector<std::uint32_t> counts = counts_.read_all<std::uint32_t>(2);
+    return {counts[0], counts[1]};
 }
 
 void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh) {
@@ -99,16 +114,22 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
 }
 
 void MarchPass::execute(const Inputs& inputs) {
+    if (inputs.count) {
+        counting_ = counting_ ? std::move(counting_) : std::make_unique<Kinds>(aov_, true);
+        counts_.clear_to_zero();
+        counts_.bind_storage(BIND_MARCH_COUNTS);
+    }
+    const Kinds& kinds = inputs.count ? *counting_ : kinds_;
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
     glBeginQuery(GL_SAMPLES_PASSED, queries_[0]);
     for (int kind = 0; kind < shared::kMarchSets; ++kind) {
-        draw_kind(kind, slabs_, crest_slabs_, inputs);
+        draw_kind(kind, kinds.slabs, kinds.crest_slabs, inputs);
     }
     glEndQuery(GL_SAMPLES_PASSED);
     glBeginQuery(GL_SAMPLES_PASSED, queries_[1]);
-    draw_kind(shared::kMarchColumns, columns_, crest_columns_, inputs);
+    draw_kind(shared::kMarchColumns, kinds.columns, kinds.crest_columns, inputs);
     glEndQuery(GL_SAMPLES_PASSED);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);
@@ -116,8 +137,11 @@ void MarchPass::execute(const Inputs& inputs) {
 }
 
 void MarchPass::reload() {
-    for (gl::Program* program : {&canopy_, &choose_, &columns_, &slabs_, &crest_columns_, &crest_slabs_}) {
-        program->reload();
+    canopy_.reload();
+    choose_.reload();
+    kinds_.reload();
+    if (counting_) {
+        counting_->reload();
     }
 }
 

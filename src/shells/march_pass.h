@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 
 #include <glm/glm.hpp>
 
+#include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -42,6 +44,7 @@ public:
         const CanopyTargets& canopy;
         int samples = 1;        ///< a pixel of the scene has
         float eye_height_m = 0; ///< over the ground
+        bool count = false;     ///< steps and reads, at the cost of two atomic additions a pixel
     };
     /// Chooses the kinds, into the depth of the framebuffer that is bound. Before: frame constants and clipmap are bound.
     void choose(const Inputs& inputs);
@@ -49,14 +52,24 @@ public:
     void execute(const Inputs& inputs);
     /// Pixels of the last execute() that were marched through slabs (x) and columns (y); waits for the GPU.
     [[nodiscard]] glm::uvec2 pixels() const;
+    /// Steps of the last execute() that counted, and texels that it and the choice read; waits for the GPU.
+    [[nodiscard]] glm::uvec2 work() const;
     void reload();
 
 private:
+    struct Kinds {
+        Kinds(bool aov, bool count);
+        gl::Program columns, slabs;             ///< of rays that end in the canopy
+        gl::Program crest_columns, crest_slabs; ///< of those that may leave it and come to another
+        void reload();
+    };
     void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const;
     void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
     gl::Program canopy_, choose_;
-    gl::Program columns_, slabs_;             ///< of rays that end in the canopy
-    gl::Program crest_columns_, crest_slabs_; ///< of those that may leave it and come to another
+    Kinds kinds_;
+    std::unique_ptr<Kinds> counting_; ///< made when first asked for
+    bool aov_;
+    gl::Buffer counts_;
     std::uint32_t vertex_array_ = 0;
     std::array<std::uint32_t, 2> queries_{}; ///< samples passed: slabs, columns
 };

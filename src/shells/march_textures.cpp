@@ -42,7 +42,7 @@ MarchTextures::MarchTextures(const grass::FarMedium& march) {
             texture->set_wrap(GL_REPEAT, columns ? GL_REPEAT : GL_CLAMP_TO_EDGE);
         }
     }
-    correction_ = gl::Texture(GL_RGBA32F, {shared::kMarchElevations, shared::kMarchMips, static_cast<int>(grass::kMarchDensities.size())});
+    correction_ = gl::Texture(GL_RGBA32F, {shared::kMarchElevations, shared::kMarchMips, grass::kMarchKinds});
     correction_.upload(0, GL_RGBA, GL_FLOAT, march.correction.data());
     correction_.set_filter(GL_LINEAR, GL_LINEAR);
     correction_.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
