@@ -77,6 +77,20 @@ void keep_coverage(AlbedoImage& image, double share) {
         (void)spread(thin, change, 0, kFail);
 }
 
+/// Rounds alphas to bytes; what that loses is carried to the next texel, for thin blades are a few of 255.
+void round_alphas(AlbedoImage& image) {
+    float carried = 0;
+    for (AlbedoTexel& t : image.texels) {
+        if (t.alpha <= 0)
+            continue;
+        const float wanted = t.alpha * 255 + carried;
+        const bool passes = t.alpha >= kPass;
+        const float code = std::clamp(std::round(wanted), passes ? kPass * 255 : 0.0f, passes ? 255.0f : kFail * 255);
+        carried = wanted - code;
+        t.alpha = code / 255;
+    }
+}
+
 /// Gives the texels beside those that have a colour the mean of their neighbours'.
 void grow(AlbedoImage& image, std::vector<char>& known) {
     const std::vector<char> before = known;
@@ -151,8 +165,10 @@ std::vector<AlbedoImage> albedo_mips(AlbedoImage image, int mips, const AlbedoTe
     for (std::size_t m = chain.size(); m-- > 0;)
         fill(chain[m], m + 1 < chain.size() ? &chain[m + 1] : nullptr, empty);
     chain.resize(std::min(chain.size(), static_cast<std::size_t>(mips)));
-    for (std::size_t m = 1; m < chain.size(); ++m)
+    for (std::size_t m = 1; m < chain.size(); ++m) {
         keep_coverage(chain[m], share);
+        round_alphas(chain[m]);
+    }
     return chain;
 }
 

@@ -17,7 +17,7 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr std::uint64_t kBytesOfBlade = 3000; // at most, in all levels: 27 vertices and their triangles
-constexpr std::uint64_t kMostBytes = std::uint64_t{2} << 30;
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30;
 /// Share of the screen's height above which a level is drawn, for readers of MSFT_lod.
 constexpr double kScreenShares[] = {0.5, 0.2, 0.02};
 

@@ -15,7 +15,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "glTF is little-endian; so are we");
 constexpr int kFloat = 5126, kUnsignedShort = 5123, kUnsignedInt = 5125;
 constexpr int kVertices = 34962, kIndices = 34963; // GL's ARRAY_BUFFER, ELEMENT_ARRAY_BUFFER
-constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31; // the format allows 4 GiB, many readers less
+constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 30; // the format allows 4 GiB, many readers less
 
 void append(std::vector<std::byte>& out, const void* data, std::size_t bytes) {
     const auto* first = static_cast<const std::byte*>(data);
