@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Khronos' validator over glTF files: node validate.mjs FILE.glb ...  (npm install gltf-validator). Ends with 1 on an error or warning.
+// Khronos' validator over glTF files, from a folder with node_modules (npm install gltf-validator):
+//   node PATH/validate.mjs FILE.glb ...
+// Ends with 1 on an error or warning.
 import { readFileSync } from 'node:fs';
-import validator from 'gltf-validator';
+import { createRequire } from 'node:module';
+
+const validator = createRequire(`${process.cwd()}/`)('gltf-validator');
 
 let bad = 0;
 for (const file of process.argv.slice(2)) {
