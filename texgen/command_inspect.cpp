@@ -35,6 +35,8 @@ const char* format_name(grass::TexelFormat format) {
         return "RGBA32F";
     case grass::TexelFormat::kBc5:
         return "BC5";
+    case grass::TexelFormat::kRgba8Srgb:
+        return "RGBA8 sRGB";
     }
     return "";
 }

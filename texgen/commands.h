@@ -10,6 +10,7 @@ namespace sward::texgen {
 [[nodiscard]] int run_bake(const BakeCommandOptions& options);
 [[nodiscard]] int run_seam(const SeamOptions& options);
 [[nodiscard]] int run_import(const ImportOptions& options);
+[[nodiscard]] int run_export(const ExportCommandOptions& options);
 [[nodiscard]] int run_inspect(const InspectOptions& options);
 [[nodiscard]] int run_verify(const VerifyOptions& options);
 

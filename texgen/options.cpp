@@ -253,6 +253,33 @@ void declare_import(CLI::App& app, Options& o) {
     declare_common(app, o.import);
 }
 
+void declare_export(CLI::App& app, Options& o) {
+    ExportCommandOptions& e = o.exporting;
+    declare_path(app, "SET", "SET", "a grass set's directory", [&e](const fs::path& path) { e.input = directory_name(path); })->required();
+    declare_path(app, "-o,--output", "DIR", "directory for the files; an earlier export there is replaced",
+                 [&e](const fs::path& path) { e.output = directory_name(path); })
+        ->required();
+    declare(app, "--for", "gltf|textures|blender",
+            "gltf: triangles with levels of detail; textures: albedo and tangents as arrays and atlases, the far field's data; blender: "
+            "triangles, points and the volume",
+            [&e](const std::string& text) {
+                static constexpr std::pair<const char*, ExportTarget> kTargets[] = {
+                    {"gltf", ExportTarget::kGltf}, {"textures", ExportTarget::kTextures}, {"blender", ExportTarget::kBlender}};
+                const auto* found = std::ranges::find(kTargets, text, [](const auto& entry) { return std::string_view(entry.first); });
+                if (found == std::end(kTargets))
+                    throw usage("--for", text, "gltf, textures or blender");
+                e.target = found->second;
+            })
+        ->required();
+    declare(app, "--compression", "none|zstd|zstd:N", "of the KTX2 files, as for a preset", [&e](const std::string& text) {
+        e.compression = parse_compression(text);
+        if (e.compression.block)
+            throw usage("--compression", text, "none, zstd or zstd:N: bc packs what other engines do not get");
+    });
+    app.add_flag_callback("--no-atlas", [&e] { e.atlases = false; }, "texture arrays alone");
+    declare_common(app, e);
+}
+
 void declare_inspect(CLI::App& app, Options& o) {
     declare_path(app, "SET", "SET", "a grass set's directory, a .ktx2 or a .vdb file",
                  o.inspect.input)
@@ -278,6 +305,8 @@ constexpr Subcommand kSubcommands[] = {
      [](const Options& o) { return run_seam(o.seam); }},
     {"import", "turn a volume or a stack of pictures into a far-only set", declare_import,
      [](const Options& o) { return run_import(o.import); }},
+    {"export", "write a set's meshes, textures or volume for other engines", declare_export,
+     [](const Options& o) { return run_export(o.exporting); }},
     {"inspect", "print what is in a set or a file", declare_inspect,
      [](const Options& o) { return run_inspect(o.inspect); }},
     {"verify", "check every hash and limit of a set", declare_verify,

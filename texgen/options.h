@@ -80,6 +80,18 @@ struct ImportOptions : CommonOptions {
     bool preview = true;
 };
 
+/// What `texgen export` writes.
+enum class ExportTarget { kGltf, kTextures, kBlender };
+
+/// `texgen export SET -o DIR --for gltf|textures|blender`.
+struct ExportCommandOptions : CommonOptions {
+    std::filesystem::path input;
+    std::filesystem::path output; ///< without a trailing slash
+    ExportTarget target = ExportTarget::kGltf;
+    Compression compression;
+    bool atlases = true;
+};
+
 /// `texgen inspect SET`.
 struct InspectOptions : CommonOptions {
     std::filesystem::path input; ///< a set's directory, a .ktx2 or a .vdb
@@ -94,6 +106,7 @@ struct Options {
     BakeCommandOptions bake;
     SeamOptions seam;
     ImportOptions import;
+    ExportCommandOptions exporting; ///< `export` is a keyword
     InspectOptions inspect;
     VerifyOptions verify;
     std::string help; ///< the text that --help or --version asked for, or empty

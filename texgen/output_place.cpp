@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <ranges>
 
-#include "base/error.h"
-
 namespace sward::texgen {
 
 namespace fs = std::filesystem;
@@ -32,6 +30,13 @@ void OutputParents::take_away() {
     for (const fs::path& p : made_ | std::views::reverse)
         fs::remove(p, ignored);
     made_.clear();
+}
+
+void throw_for_place(const base::Error& error, const fs::path& temporary, const fs::path& output) {
+    std::string text = error.what();
+    if (const std::size_t at = text.find(temporary.string()); at != std::string::npos)
+        text.replace(at, temporary.string().size(), output.string());
+    throw base::Error(error.code(), text);
 }
 
 } // namespace sward::texgen

@@ -74,13 +74,13 @@ bool is_unchanged(const fs::path& directory, const FileEntry& entry) {
 
 } // namespace
 
-std::vector<FileEntry> listed_files(const fs::path& directory) {
+std::vector<FileEntry> listed_files(const fs::path& directory, const char* list) {
     std::error_code error;
     if (!fs::is_directory(directory, error))
         throw base::input_error(ExitCode::kIo, directory, 0, "grass set",
                                 fs::exists(directory, error) ? "a file" : "no such directory",
                                 "a directory that texgen wrote");
-    const fs::path path = directory / grass::kSetJson;
+    const fs::path path = directory / list;
     if (!fs::exists(path, error))
         throw base::input_error(ExitCode::kBadInput, path, 0, "grass set", "no such file",
                                 "the description of a grass set");
@@ -95,12 +95,12 @@ std::vector<FileEntry> listed_files(const fs::path& directory) {
     return entries;
 }
 
-std::vector<std::byte> checked_file(const fs::path& directory, const FileEntry& entry) {
+std::vector<std::byte> checked_file(const fs::path& directory, const FileEntry& entry, const char* list) {
     const fs::path path = directory / entry.name;
     const auto refuse = [&](std::string_view what, const std::string& found,
                             const std::string& expected) {
         throw base::input_error(ExitCode::kBadInput, path, 0, what, found,
-                                expected + " as in " + grass::kSetJson);
+                                expected + " as in " + list);
     };
     std::error_code error;
     if (!fs::is_regular_file(path, error))
@@ -131,11 +131,11 @@ std::vector<std::string> foreign_files(const fs::path& directory) {
 }
 
 std::vector<std::string> unlisted_files(const fs::path& directory,
-                                        std::span<const FileEntry> entries) {
+                                        std::span<const FileEntry> entries, const char* list) {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
-        if (name != grass::kSetJson && std::ranges::find(entries, name, &FileEntry::name) == entries.end())
+        if (name != list && std::ranges::find(entries, name, &FileEntry::name) == entries.end())
             names.push_back(name);
     }
     std::ranges::sort(names);

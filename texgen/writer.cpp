@@ -17,6 +17,7 @@
 #include "grass/set_files.h"
 #include "texgen/check_nan.h"
 #include "texgen/far_light.h"
+#include "texgen/output_place.h"
 #include "texgen/parallel.h"
 #include "texgen/preview.h"
 #include "texgen/set_files_check.h"
@@ -148,12 +149,8 @@ std::vector<FileEntry> write_set(const grass::GrassSet& set, const Preset& prese
     std::vector<FileEntry> files;
     try {
         files = write_files(set, pending.path(), options);
-    } catch (const base::Error& error) { // name the place the user asked for, not the temporary
-        std::string text = error.what();
-        const std::string temporary = pending.path().string();
-        if (const std::size_t at = text.find(temporary); at != std::string::npos)
-            text.replace(at, temporary.size(), directory.string());
-        throw base::Error(error.code(), text);
+    } catch (const base::Error& error) {
+        throw_for_place(error, pending.path(), directory);
     }
     pending.commit();
     std::uint64_t bytes = 0;

@@ -66,37 +66,53 @@ const std::array<Attribute, 12> kAttributes = {{
      [](BladeRecord& b, const float* f) { b.v1.w = *f / 2; }},
 }};
 
-int add_accessor(tinygltf::Model& model, const Attribute& attribute,
-                 std::span<const BladeRecord> blades) {
+/// Components of an attribute that go into one accessor.
+struct Part {
+    int first = 0, count = 0;
+};
+
+int add_accessor(tinygltf::Model& model, const Attribute& attribute, Part part, std::span<const BladeRecord> blades) {
+    const auto components = static_cast<std::size_t>(part.count);
     std::vector<unsigned char>& data = model.buffers[0].data;
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = data.size();
-    view.byteLength =
-        blades.size() * static_cast<std::size_t>(attribute.components) * sizeof(float);
+    view.byteLength = blades.size() * components * sizeof(float);
     view.target = TINYGLTF_TARGET_ARRAY_BUFFER;
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model.bufferViews.size());
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
-    accessor.type = attribute.components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
+    accessor.type = part.count == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
     accessor.count = blades.size();
-    accessor.minValues.assign(static_cast<std::size_t>(attribute.components), 1e30);
-    accessor.maxValues.assign(static_cast<std::size_t>(attribute.components), -1e30);
+    accessor.minValues.assign(components, 1e30);
+    accessor.maxValues.assign(components, -1e30);
     data.resize(data.size() + view.byteLength);
     unsigned char* out = data.data() + view.byteOffset;
     for (const BladeRecord& blade : blades) {
         float f[3] = {};
         attribute.read(blade, f);
-        for (std::size_t c = 0; c < accessor.minValues.size(); ++c) {
-            accessor.minValues[c] = std::min(accessor.minValues[c], static_cast<double>(f[c]));
-            accessor.maxValues[c] = std::max(accessor.maxValues[c], static_cast<double>(f[c]));
+        const float* values = f + part.first;
+        for (std::size_t c = 0; c < components; ++c) {
+            accessor.minValues[c] = std::min(accessor.minValues[c], static_cast<double>(values[c]));
+            accessor.maxValues[c] = std::max(accessor.maxValues[c], static_cast<double>(values[c]));
         }
-        std::memcpy(out, f, static_cast<std::size_t>(attribute.components) * sizeof(float));
-        out += static_cast<std::size_t>(attribute.components) * sizeof(float);
+        std::memcpy(out, values, components * sizeof(float));
+        out += components * sizeof(float);
     }
     model.bufferViews.push_back(view);
     model.accessors.push_back(accessor);
     return static_cast<int>(model.accessors.size()) - 1;
+}
+
+void add_attribute(tinygltf::Model& model, tinygltf::Primitive& points, const Attribute& attribute,
+                   std::span<const BladeRecord> blades, BladeAttributes form) {
+    const std::string name = attribute.name;
+    if (form == BladeAttributes::kVectors || attribute.components == 1 || !name.starts_with('_')) {
+        points.attributes[name] = add_accessor(model, attribute, {0, attribute.components}, blades);
+        return;
+    }
+    for (int c = 0; c < attribute.components; ++c)
+        points.attributes[fmt::format("{}_{}", name, "XYZ"[c])] = add_accessor(model, attribute, {c, 1}, blades);
 }
 
 /// Depth and length of the JSON chunk, before a recursive parser sees it.
@@ -246,7 +262,7 @@ void check_blades(std::span<const BladeRecord> blades, float side_m, const Varia
 } // namespace
 
 std::vector<std::byte> encode_blades(std::span<const BladeRecord> blades,
-                                     std::span<const std::uint32_t> variant_begin, float side_m) {
+                                     std::span<const std::uint32_t> variant_begin, float side_m, BladeAttributes form) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "Sward texgen";
@@ -259,7 +275,7 @@ std::vector<std::byte> encode_blades(std::span<const BladeRecord> blades,
         tinygltf::Primitive points;
         points.mode = TINYGLTF_MODE_POINTS;
         for (const Attribute& attribute : kAttributes)
-            points.attributes[attribute.name] = add_accessor(model, attribute, part);
+            add_attribute(model, points, attribute, part, form);
         tinygltf::Mesh mesh;
         mesh.name = fmt::format("variant {}", v);
         mesh.primitives.push_back(points);

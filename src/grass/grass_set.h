@@ -20,6 +20,7 @@ enum class TexelFormat {
     kRgba32f, ///< 16 bytes a texel
     kRgba16f, ///< 8 bytes a texel
     kBc5,     ///< two channels UNORM in blocks of 4 x 4 texels, 16 bytes a block
+    kRgba8Srgb, ///< as kRgba8, with sRGB in RGB and linear alpha: colour for other engines, never part of a set
 };
 
 /// Texture array with mips, the content of a KTX2 file. Mip m is max(1, width >> m) x max(1, height >> m) x layers texels,
@@ -30,6 +31,7 @@ struct TextureArray {
     int layers = 0;
     std::vector<std::vector<std::uint8_t>> mips;
     TexelFormat format = TexelFormat::kRgba8;
+    bool plain = false; ///< one 2D texture, not an array of one: what other engines take for an atlas
 };
 
 /// One level of the far tier: level k has texels 2^k as wide as level 0's and about half the layers and slices of level

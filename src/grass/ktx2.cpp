@@ -97,7 +97,9 @@ public:
                            static_cast<int>(header_.height),
                            static_cast<int>(header_.layers),
                            {},
-                           traits_->format};
+                           traits_->format,
+                           header_.layers == 0};
+        array.layers = std::max(1, array.layers);
         const std::vector<Level> levels = check_levels(array);
         for (const Level& level : levels)
             array.mips.push_back(unpack(level));
@@ -118,24 +120,24 @@ private:
         traits_ = traits_of_vk(header_.format);
         if (!traits_)
             refuse(ExitCode::kBadInput, "format", std::to_string(header_.format),
-                   "37 (RGBA8 UNORM), 97 (RGBA16F), 109 (RGBA32F) or 141 (BC5 UNORM)");
+                   "37 (RGBA8 UNORM), 43 (RGBA8 SRGB), 97 (RGBA16F), 109 (RGBA32F) or 141 (BC5 UNORM)");
         if (header_.type_size != traits_->type_size)
             refuse(ExitCode::kBadInput, "type size", std::to_string(header_.type_size),
                    std::to_string(traits_->type_size));
         if (header_.scheme != kSchemeZstd && header_.scheme != kSchemeNone)
             refuse(ExitCode::kBadInput, "supercompression", std::to_string(header_.scheme),
                    "0 (none) or 2 (Zstandard)");
-        if (header_.depth != 0 || header_.faces != 1 || header_.layers == 0)
+        if (header_.depth != 0 || header_.faces != 1)
             refuse(ExitCode::kBadInput, "shape",
                    fmt::format("depth {}, faces {}, layers {}", header_.depth, header_.faces,
                                header_.layers),
-                   "a 2D array");
+                   "a 2D array or texture");
         const std::vector<std::byte> dfd = data_format_descriptor(traits_->format);
         const std::uint64_t end = std::uint64_t{header_.dfd_offset} + header_.dfd_bytes;
         if (header_.dfd_bytes != dfd.size() || end > bytes_.size() ||
             std::memcmp(bytes_.data() + header_.dfd_offset, dfd.data(), dfd.size()) != 0)
             refuse(ExitCode::kBadInput, "data format descriptor", "another",
-                   fmt::format("linear {}", traits_->name));
+                   fmt::format("that of {}", traits_->name));
         if (std::uint64_t{header_.kvd_offset} + header_.kvd_bytes > bytes_.size())
             refuse(ExitCode::kBadInput, "key/value data", "an end beyond the file",
                    "an end inside");
@@ -149,11 +151,11 @@ private:
         if (header_.width == 0 || header_.height == 0)
             refuse(ExitCode::kBadInput, "size",
                    fmt::format("{} x {}", header_.width, header_.height), "at least 1 x 1");
-        if (header_.width > kMaxSide || header_.height > kMaxSide ||
-            header_.layers > kMaxArrayLayers)
+        const std::uint32_t most_side = header_.layers == 0 ? kMaxPlainSide : kMaxSide;
+        if (header_.width > most_side || header_.height > most_side || header_.layers > kMaxArrayLayers)
             refuse(ExitCode::kOverLimit, "size",
                    fmt::format("{} x {} x {}", header_.width, header_.height, header_.layers),
-                   fmt::format("at most {0} x {0} x {1}", kMaxSide, kMaxArrayLayers));
+                   fmt::format("at most {0} x {0} x {1}", most_side, kMaxArrayLayers));
         const auto most =
             static_cast<std::uint32_t>(std::bit_width(std::max(header_.width, header_.height)));
         if (header_.levels == 0 || header_.levels > most)
@@ -256,7 +258,7 @@ std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
         out.push_back(static_cast<std::byte>(c));
     put(out, Header{traits.vk_format, traits.type_size, static_cast<std::uint32_t>(array.width),
                     static_cast<std::uint32_t>(array.height), 0,
-                    static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count),
+                    array.plain ? 0 : static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count),
                     compression == 0 ? kSchemeNone : kSchemeZstd,
                     static_cast<std::uint32_t>(dfd_offset),
                     static_cast<std::uint32_t>(dfd.size()),

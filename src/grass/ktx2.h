@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// KTX 2.0, the subset a grass set needs: 2D arrays with mips in the formats of TexelFormat, with no
-// supercompression (scheme 0) or Zstandard's (scheme 2).
+// KTX 2.0, the subset that grass sets and their exports need: 2D arrays and 2D textures with mips in the formats of
+// TexelFormat, with no supercompression (scheme 0) or Zstandard's (scheme 2).
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ namespace sward::grass {
 
 /// Limits of a texture array (images, and bytes once unpacked with all mips).
 inline constexpr std::uint32_t kMaxArrayLayers = 2048;
-inline constexpr std::uint32_t kMaxSide = 2048;
+inline constexpr std::uint32_t kMaxSide = 2048;      ///< of an array; an atlas may have more
+inline constexpr std::uint32_t kMaxPlainSide = 16384; ///< of a single texture: what GPUs take
 inline constexpr std::uint64_t kMaxArrayBytes = std::uint64_t{1} << 30;
 
 /// Bytes of mip `mip`: max(1, width >> mip) x max(1, height >> mip) x layers texels, in whole blocks.

@@ -23,7 +23,7 @@ struct FormatTraits {
 /// Null when it is none of ours.
 [[nodiscard]] const FormatTraits* traits_of_vk(std::uint32_t vk_format);
 
-/// Data format descriptor with its total size in front (Khronos Data Format 1.3): linear, BT.709
+/// Data format descriptor with its total size in front (Khronos Data Format 1.3): linear or sRGB, BT.709
 /// primaries, straight alpha.
 [[nodiscard]] std::vector<std::byte> data_format_descriptor(TexelFormat format);
 

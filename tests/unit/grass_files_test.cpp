@@ -72,6 +72,7 @@ grass::TextureArray noise_of(grass::TexelFormat format) {
 TEST(Ktx2, EveryFormatWithAndWithoutZstd) {
     for (const auto& [format, vk, mip1] :
          {std::tuple{grass::TexelFormat::kRgba8, 37, 20 * 6 * 3 * 4},
+          std::tuple{grass::TexelFormat::kRgba8Srgb, 43, 20 * 6 * 3 * 4},
           std::tuple{grass::TexelFormat::kRgba32f, 109, 20 * 6 * 3 * 16},
           std::tuple{grass::TexelFormat::kBc5, 141, 5 * 2 * 3 * 16}})
         for (const int level : {0, 3}) {
@@ -95,7 +96,7 @@ TEST(Ktx2, EveryFormatWithAndWithoutZstd) {
                 for (int m = 0; m < 4; ++m) {
                     std::uint64_t offset = 0;
                     std::memcpy(&offset, bytes.data() + 80 + 24 * m, sizeof offset);
-                    EXPECT_EQ(offset % (format == grass::TexelFormat::kRgba8 ? 4 : 16), 0u);
+                    EXPECT_EQ(offset % (mip1 == 20 * 6 * 3 * 4 ? 4 : 16), 0u);
                 }
                 std::vector<std::byte> bad = bytes;
                 bad[80] ^= std::byte{2};
@@ -144,6 +145,26 @@ TEST(Ktx2, DescriptorsAreThoseOfTheFormat) {
     EXPECT_EQ(word(real, dfd + 28 + 3 * 16), 0xCF1F0000u | 96u);   // alpha
     EXPECT_EQ(word(real, dfd + 36), 0xBF800000u);                  // -1
     EXPECT_EQ(word(real, dfd + 40), 0x3F800000u);                  // 1
+    const std::vector<std::byte> srgb = grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba8Srgb), 0);
+    dfd = word(srgb, 48);
+    EXPECT_EQ(word(srgb, dfd + 12), 0x00020101u);                  // RGBSDA, BT.709, sRGB
+    EXPECT_EQ(word(srgb, dfd + 28), 7u << 16);                     // red
+    EXPECT_EQ(word(srgb, dfd + 28 + 3 * 16), 0x1F070000u | 24u);   // alpha, linear
+}
+
+TEST(Ktx2, ASingleTextureIsNoArrayAndMayBeLarger) {
+    grass::TextureArray atlas{4096, 8, 1, {}, grass::TexelFormat::kRgba8Srgb, true};
+    atlas.mips.emplace_back(grass::mip_bytes(atlas, 0), std::uint8_t{7});
+    const std::vector<std::byte> bytes = grass::encode_ktx2(atlas, 3);
+    std::uint32_t layers = 1;
+    std::memcpy(&layers, bytes.data() + 32, sizeof layers);
+    EXPECT_EQ(layers, 0u);
+    const grass::TextureArray back = grass::decode_ktx2(bytes, "atlas.ktx2");
+    EXPECT_TRUE(back.plain);
+    EXPECT_EQ(back.layers, 1);
+    EXPECT_EQ(back.mips, atlas.mips);
+    atlas.plain = false;
+    EXPECT_EQ(error_of([&] { (void)grass::decode_ktx2(grass::encode_ktx2(atlas, 3), "wide.ktx2"); }).first, ExitCode::kOverLimit);
 }
 
 TEST(Ktx2, RefusesCutFlippedAndForeignBytes) {
