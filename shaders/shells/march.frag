@@ -63,7 +63,7 @@ float far_share(vec3 world) {
 
 // What the sums hold, as radiance.
 vec3 light_of(Seen seen, View view, Entry entry) {
-    Light light = light_in_sway(frame.light, entry.air.zw);
+    Light light = light_at(entry);
     GrassSums grass = seen.grass;
     float shown = max(grass.along, 1e-6);
     float evenness = length(grass.tangent);
@@ -72,7 +72,7 @@ vec3 light_of(Seen seen, View view, Entry entry) {
     vec3 tint = sward_tint(entry.ground.w);
     grass.sunlit *= tint;
     grass.skylit *= tint;
-    return shade_sums(medium.look, medium.size.z, light, grass, -view.way);
+    return shade_sums(medium.look, medium.size.z, light, grass, to_eye_at(entry, view));
 }
 
 // Adds a step's blades, `shown` of the pixel, to the sums.
@@ -97,13 +97,13 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     plan.kind = kind;
     march_settle(plan);
     float scale = plan.density * correction_at(plan) * step(0.0021, entry.ground.z);
-    vec3 normal = normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
-    vec3 crossed = abs(vec3(medium.edges[0]) * vec3(plan.level.x, view.way.y, plan.level.y));
+    vec3 normal = normal_at(entry);
+    vec3 crossed = abs(vec3(medium.edges[0]) * vec3(plan.level.x, path.way.y, plan.level.y));
     vec3 tint_slope_shown = vec3(crossed.y / max(crossed.x + crossed.y + crossed.z, 1e-6), dot(normal, frame.light.to_sun.xyz), 0.0);
     seen.grass.along = 0.0;
-    float ground = kOnGround * min(path.height.x / max(-path.height.y, 1e-4), kNever);
+    float ground = kOnGround * ground_reach(path);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
-#ifdef CREST
+#if defined(CREST) || defined(SURFACE)
     MarchWalk walk = march_begin_inside(path);
 #else
     MarchWalk walk = march_begin(path);
@@ -127,7 +127,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     return walk;
 }
 
-#ifdef CREST
+#if defined(CREST) && !defined(SURFACE)
 // Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else kNever.
 float next_entry(View view, float from, float last, float canopy) {
     const int kProbes = 20, kHalvings = 8;
@@ -176,7 +176,7 @@ void main() {
     }
     float farthest = max(max(scene.x, scene.y), max(scene.z, scene.w));
     Entry entry = entry_of(view, pixel);
-    vec3 normal = normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
+    vec3 normal = normal_at(entry);
     vec3 radiance = vec3(0.0);
     vec4 through = vec4(1.0);
     float half_way = kNever;
@@ -193,7 +193,11 @@ void main() {
         radiance += light_of(seen, view, entry) * haze.a + haze.rgb * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
+#ifdef SURFACE
+        entry = second_entry(view, pixel);
+#else
         entry = entry_after(view, entry, path, walk, farthest);
+#endif
 #endif
     }
     float left = mean_of(through);

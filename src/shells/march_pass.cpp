@@ -18,29 +18,52 @@ void CanopyTargets::require(int width, int height) {
     surface_ = gl::Framebuffer({&ground_, &air_}, &depth_);
 }
 
-void CanopyTargets::bind_textures() const {
-    depth_.bind(TEX_CANOPY_DEPTH);
-    ground_.bind(TEX_CANOPY_GROUND);
-    air_.bind(TEX_CANOPY_AIR);
+void CanopyTargets::bind_textures(std::uint32_t first) const {
+    depth_.bind(first);
+    ground_.bind(first + TEX_CANOPY_GROUND - TEX_CANOPY_DEPTH);
+    air_.bind(first + TEX_CANOPY_AIR - TEX_CANOPY_DEPTH);
+}
+
+void SurfaceTargets::require(int width, int height) {
+    for (CanopyTargets* targets : {&first, &exit, &second}) {
+        targets->require(width, height);
+    }
+}
+
+void SurfaceTargets::bind_textures() const {
+    second.bind_textures(TEX_SECOND_DEPTH);
+    exit.depth().bind(TEX_CANOPY_EXIT);
 }
 
 namespace {
 
-std::vector<std::string> variant(bool aov, std::vector<std::string> defines) {
-    if (aov) {
-        defines.emplace_back("AOV");
+struct Variant {
+    bool aov, surface;
+    [[nodiscard]] std::vector<std::string> with(std::vector<std::string> defines) const {
+        if (aov) {
+            defines.emplace_back("AOV");
+        }
+        if (surface) {
+            defines.emplace_back("SURFACE");
+        }
+        return defines;
     }
-    return defines;
+};
+
+std::vector<std::filesystem::path> canopy_stages(bool surface) {
+    return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}
+                   : std::vector<std::filesystem::path>{"shells/canopy.vert", "shells/canopy.frag"};
 }
 
 } // namespace
 
-MarchPass::MarchPass(bool aov)
-    : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}), choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}),
-      columns_("columns", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS"})),
-      slabs_("slabs", {"shells/march.vert", "shells/march.frag"}, variant(aov, {})),
-      crest_columns_("columns at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"COLUMNS", "CREST"})),
-      crest_slabs_("slabs at crests", {"shells/march.vert", "shells/march.frag"}, variant(aov, {"CREST"})) {
+MarchPass::MarchPass(bool aov, bool surface)
+    : canopy_("canopy", canopy_stages(surface)),
+      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface}.with({})),
+      columns_("columns", {"shells/march.vert", "shells/march.frag"}, Variant{aov, surface}.with({"COLUMNS"})),
+      slabs_("slabs", {"shells/march.vert", "shells/march.frag"}, Variant{aov, surface}.with({})),
+      crest_columns_("columns at crests", {"shells/march.vert", "shells/march.frag"}, Variant{aov, surface}.with({"COLUMNS", "CREST"})),
+      crest_slabs_("slabs at crests", {"shells/march.vert", "shells/march.frag"}, Variant{aov, surface}.with({"CREST"})) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
@@ -69,17 +92,41 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     glDisable(GL_CULL_FACE);
 }
 
+void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m) {
+    constexpr float kFar[4] = {0, 0, 0, 0};
+    const auto draw = [&](const CanopyTargets& into, GLenum hidden, float behind) {
+        into.bind_for_drawing();
+        glClearBufferfv(GL_DEPTH, 0, kFar);
+        glCullFace(hidden);
+        canopy_.set("behind", behind);
+        mesh.draw();
+    };
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    canopy_.use();
+    canopy_.set("surface_origin", glm::vec4(origin, 0));
+    draw(targets.exit, GL_FRONT, 0);
+    draw(targets.first, GL_BACK, 0);
+    targets.first.depth().bind(TEX_CANOPY_DEPTH);
+    draw(targets.second, GL_BACK, apart_m);
+    glDisable(GL_CULL_FACE);
+}
+
 void MarchPass::triangle(const gl::Program& program, const Inputs& inputs, float plane) const {
     program.use();
     program.set("eye_height", inputs.eye_height_m);
     program.set("plane", plane);
+    program.set("surface_origin", glm::vec4(inputs.origin, 0));
     glBindVertexArray(vertex_array_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void MarchPass::choose(const Inputs& inputs) {
     inputs.textures.bind();
-    inputs.canopy.bind_textures();
+    inputs.canopy.bind_textures(TEX_CANOPY_DEPTH);
+    if (inputs.surface) {
+        inputs.surface->bind_textures();
+    }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
