@@ -30,7 +30,7 @@ struct View {
 struct Entry {
     float distance; // along the ray (m); kNever: nowhere
     float height;   // over the ground (m)
-    vec4 ground;    // slope, density, tint
+    vec4 ground;    // slope (of a mesh: unused; room), density, tint
     vec4 air;       // wind, canopy_sway
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a mesh's canopy. Out: what a ray that enters it there has to know of the surface and the air (surface_view.glsl reads it). With
-// `behind` above 0 only what lies so far (m) behind the first canopy.
+// `behind` above 0 only what lies so far (m) behind the first canopy, below 0 only walls.
 #include "lib/frame.glsl"
 #include "shared/surface_chart.h"
 
@@ -15,6 +15,8 @@ in vec3 squares;
 in vec3 products;
 in vec3 wind;
 in float height;
+in float room;
+in float on_top;
 flat in int chart;
 
 // Octahedral map of a unit vector (Cigolle et al. 2014).
@@ -36,6 +38,11 @@ float parabola(vec3 way, vec3 up) {
 }
 
 void main() {
+    bool top = on_top > 0.5;
+    // Where the surface is hollow, the lifted one may be folded: of what then shows from within the true top lies elsewhere.
+    if (top && (behind < 0.0 || dot(world - frame.eye.xyz, normal) > 0.0)) {
+        discard;
+    }
     if (behind > 0.0) {
         float depth = texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r;
         vec4 clip = frame.clip_from_world * vec4(world, 1.0);
@@ -46,6 +53,6 @@ void main() {
     vec3 up = normalize(normal);
     SurfaceFrame axes = surface_frame(chart, up);
     vec3 local = to_surface(axes, wind);
-    out_ground = vec4(flattened(up), float(chart), 1.0);
+    out_ground = vec4(flattened(up), float(chart), room);
     out_air = vec4(local.x, local.z, parabola(normalize(world - frame.eye.xyz), up), height);
 }

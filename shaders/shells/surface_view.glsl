@@ -21,16 +21,16 @@ vec3 octahedral(vec2 e) {
     return normalize(v);
 }
 
-// `ground`: normal, chart, density; `air`: wind along the surface, curvature, height over it.
+// `ground`: normal, chart, room; `air`: wind along the surface, curvature, height over it.
 Entry surface_entry(View view, float distance_m, vec4 ground, vec4 air) {
     Entry entry;
     entry.distance = distance_m;
     entry.height = air.w;
     int chart = int(ground.z + 0.5);
     entry.frame = surface_frame(chart, octahedral(ground.xy));
-    vec3 under = frame.eye.xyz + view.way * min(distance_m, kFarthest) - surface_origin.xyz - entry.frame.up * entry.height;
+    vec3 under = frame.eye.xyz + view.way * min(distance_m, kFarthest) - surface_origin.xyz - entry.frame.up * (entry.height * ground.w);
     entry.place = chart_place(chart, under);
-    entry.ground = vec4(0.0, 0.0, ground.w * frame.grass.y, surface_tint(under));
+    entry.ground = vec4(0.0, max(ground.w, 0.05), frame.grass.y, surface_tint(under));
     entry.air = vec4(air.xy, 1.0, 1.0);
     entry.curve_end = vec2(air.z, kNever);
     return entry;
@@ -58,9 +58,10 @@ MarchPath path_of(View view, Entry entry) {
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
     path.way = to_surface(entry.frame, view.way);
+    path.way.y /= entry.ground.y; // over a hollow the whole canopy stands in less room
     path.from = vec3(entry.place.x, min(entry.height, path.bend.w), entry.place.y);
     float reach = min(40.0 * canopy + 0.02 * entry.distance, entry.curve_end.y - entry.distance);
-    path.height = vec4(path.from.y, path.way.y, entry.curve_end.x, reach);
+    path.height = vec4(path.from.y, path.way.y, entry.curve_end.x / entry.ground.y, reach);
     return path;
 }
 

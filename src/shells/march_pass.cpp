@@ -105,7 +105,7 @@ void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy&
     glEnable(GL_CULL_FACE);
     canopy_.use();
     canopy_.set("surface_origin", glm::vec4(origin, 0));
-    draw(targets.exit, GL_FRONT, 0);
+    draw(targets.exit, GL_FRONT, -1);
     draw(targets.first, GL_BACK, 0);
     targets.first.depth().bind(TEX_CANOPY_DEPTH);
     draw(targets.second, GL_BACK, apart_m);

@@ -29,7 +29,7 @@ private:
     gl::Framebuffer surface_;
 };
 
-/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that, where it enters next.
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that through a wall, where it enters next.
 struct SurfaceTargets {
     CanopyTargets first, exit, second;
     void require(int width, int height);

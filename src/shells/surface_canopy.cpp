@@ -128,7 +128,7 @@ std::vector<CanopyVertex> canopy_over(const scene::Mesh& mesh, double slope_deg)
     };
     for (const Face& face : faces) {
         for (std::size_t k = 0; k < 3; ++k) {
-            add(face, k, 1);
+            add(face, k, 2);
         }
     }
     for (const Edge& edge : open_edges(faces)) { // outside in front: the grass is left of an edge, seen from above

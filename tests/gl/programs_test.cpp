@@ -117,7 +117,7 @@ class Programs : public GlTest {};
 TEST_F(Programs, PassesBuildInBothVariants) {
     for (const bool aov : {false, true})
         for (const bool block_shapes : {false, true})
-            const render::DrawPasses passes(aov, block_shapes);
+            const render::DrawPasses passes(aov, block_shapes, block_shapes);
     const blades::CullPass cull;
     const terrain::BlockSamples samples;
 }

@@ -140,7 +140,7 @@ TEST_F(SurfaceFar, BladesHandOver) {
 
 TEST(SurfaceCanopy, KnowsCurvatureAndRims) {
     for (const shells::CanopyVertex& v : shells::canopy_over(ball(2), 180)) {
-        EXPECT_EQ(v.chart_lift.y, 1.0f); // closed: no walls
+        EXPECT_EQ(v.chart_lift.y, 2.0f); // closed: no walls
         const glm::vec3 n = glm::normalize(v.position);
         if (std::abs(n.y) > 0.95f) {
             continue; // slivers
