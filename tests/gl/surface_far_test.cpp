@@ -28,7 +28,8 @@ scene::Mesh ball(float radius) {
     for (std::uint32_t j = 0; j <= kRings; ++j) {
         for (std::uint32_t i = 0; i < kColumns; ++i) {
             const double polar = 3.14159265358979 * j / kRings, around = 3.14159265358979 * i / kRings;
-            const glm::vec3 out(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
+            const double level = j % kRings == 0 ? 0 : std::sin(polar); // the poles are one place each
+            const glm::vec3 out(level * std::cos(around), std::cos(polar), level * std::sin(around));
             mesh.positions.push_back(radius * out);
             mesh.normals.push_back(out);
         }
@@ -82,8 +83,8 @@ TEST_F(SurfaceFar, ALevelSheetIsTheField) {
     field.elevation = flat_field(0);
     field.mask = even_mask(1);
     Renderer flat(std::move(field)), sheet(mesh_world(level_sheet(30)));
-    for (const double pitch : {-89.0, -45.0, -20.0}) {
-        const glm::dvec3 eye(0.3, 4, pitch < -80 ? 0 : pitch < -40 ? 4 : 9);
+    for (const double pitch : {-89.0, -45.0, -32.0}) {
+        const glm::dvec3 eye(0.3, 4, pitch < -80 ? 0 : pitch < -40 ? 4 : 6);
         const scene::Image a = aov(flat, "coverage", eye, pitch), b = aov(sheet, "coverage", eye, pitch);
         double sum = 0, worst = 0, covered = 0;
         for (std::size_t i = 0; i < a.texels.size(); ++i) {
@@ -112,14 +113,16 @@ TEST_F(SurfaceFar, ABallHasHairBeyondItsOutline) {
                 EXPECT_EQ(coverage, 0) << x << ' ' << y;
             } else if (near < 1.9) {
                 EXPECT_GT(coverage, 0.35) << x << ' ' << y;
-            } else if (near > 2.03 && near < 2.2) {
-                EXPECT_LT(coverage, 0.999) << x << ' ' << y;
+            } else if (near > 2.03 && near < 2.15) {
+                EXPECT_GT(coverage, 0.6) << x << ' ' << y; // long ways through the layer, nothing behind
+            } else if (near > 2.24 && near < 2.27) {
                 rim += coverage;
                 ++rims;
             }
         }
     }
-    EXPECT_GT(rim / rims, 0.2);
+    EXPECT_GT(rim / rims, 0.1);
+    EXPECT_LT(rim / rims, 0.95);
 }
 
 TEST_F(SurfaceFar, BladesHandOver) {
@@ -153,10 +156,9 @@ TEST(SurfaceCanopy, KnowsCurvatureAndRims) {
     const auto sheet = shells::canopy_over(level_sheet(3), 180);
     EXPECT_EQ(sheet.size(), 6u + 4 * 6); // its top, and a wall a side
     for (std::size_t i = 6; i < sheet.size(); i += 6) { // which face outwards
-        const auto place = [&](std::size_t k) { return sheet[i + k].position + sheet[i + k].normal * sheet[i + k].chart_lift.y; };
+        const auto place = [&](std::size_t k) { return sheet[i + k].position + sheet[i + k].normal * std::min(sheet[i + k].chart_lift.y, 1.0f); };
         EXPECT_GT(glm::dot(glm::cross(place(1) - place(0), place(2) - place(0)), 0.5f * (place(0) + place(1))), 0.1f);
     }
-    EXPECT_TRUE(shells::canopy_over(level_sheet(3), 180).size() > 0);
 }
 
 } // namespace
