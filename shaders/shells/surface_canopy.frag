@@ -9,6 +9,8 @@ layout(location = 0) out vec4 out_ground;
 layout(location = 1) out vec4 out_air;
 uniform float behind;
 
+const float kMeanHeight = 0.25; // of blade area, over the canopy
+
 in vec3 world;
 in vec3 normal;
 in vec3 squares;
@@ -37,6 +39,14 @@ float parabola(vec3 way, vec3 up) {
     return 0.25 * clamp(lifted * frame.patch_grid.w, -0.5, 2.0) / frame.patch_grid.w * (1.0 + sqrt(min(level, 1.0)));
 }
 
+// Share of the set's density at the mean height of its blades' area: on a ridge blades fan out. Below 1: it is the fraction beside the chart.
+float fanned_out() {
+    float y = kMeanHeight * frame.patch_grid.w;
+    float sum = squares.x + squares.y + squares.z;
+    float product = squares.x * squares.y + squares.y * squares.z + squares.z * squares.x - dot(products, products);
+    return clamp(1.0 / max(1.0 + y * (sum + y * product), 1.0), 0.05, 1.0);
+}
+
 void main() {
     bool top = on_top > 0.5;
     // Where the surface is hollow, the lifted one may be folded: of what then shows from within the true top lies elsewhere.
@@ -53,6 +63,6 @@ void main() {
     vec3 up = normalize(normal);
     SurfaceFrame axes = surface_frame(chart, up);
     vec3 local = to_surface(axes, wind);
-    out_ground = vec4(flattened(up), float(chart), room);
+    out_ground = vec4(flattened(up), float(chart) + 0.96 * fanned_out(), room);
     out_air = vec4(local.x, local.z, parabola(normalize(world - frame.eye.xyz), up), height);
 }

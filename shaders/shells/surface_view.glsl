@@ -21,16 +21,17 @@ vec3 octahedral(vec2 e) {
     return normalize(v);
 }
 
-// `ground`: normal, chart, room; `air`: wind along the surface, curvature, height over it.
+// `ground`: normal, chart and density (a fraction of 0.96), room; `air`: wind along the surface, curvature, height over it.
 Entry surface_entry(View view, float distance_m, vec4 ground, vec4 air) {
     Entry entry;
     entry.distance = distance_m;
     entry.height = air.w;
-    int chart = int(ground.z + 0.5);
+    int chart = int(ground.z);
+    float fanned_out = min(fract(ground.z) / 0.96, 1.0);
     entry.frame = surface_frame(chart, octahedral(ground.xy));
     vec3 under = frame.eye.xyz + view.way * min(distance_m, kFarthest) - surface_origin.xyz - entry.frame.up * (entry.height * ground.w);
     entry.place = chart_place(chart, under);
-    entry.ground = vec4(0.0, max(ground.w, 0.05), frame.grass.y, surface_tint(under));
+    entry.ground = vec4(0.0, max(ground.w, 0.05), frame.grass.y * fanned_out, surface_tint(under));
     entry.air = vec4(air.xy, 1.0, 1.0);
     entry.curve_end = vec2(air.z, kNever);
     return entry;
