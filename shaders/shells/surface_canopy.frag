@@ -9,6 +9,7 @@ layout(location = 0) out vec4 out_ground;
 layout(location = 1) out vec4 out_air;
 uniform float behind;
 
+const float kDepthStep = 2e-5; // what depths of one surface may differ by, over the distance
 const float kMeanHeight = 0.25; // of blade area, over the canopy
 
 in vec3 world;
@@ -56,7 +57,7 @@ void main() {
     if (behind > 0.0) {
         float depth = texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r;
         vec4 clip = frame.clip_from_world * vec4(world, 1.0);
-        if (depth <= 0.0 || clip.w < kNear_m / depth + behind) {
+        if (depth <= 0.0 || clip.w < kNear_m / depth * (1.0 + kDepthStep) + behind) {
             discard;
         }
     }

@@ -10,7 +10,7 @@ namespace sward::render {
 
 namespace {
 
-constexpr float kApart = 0.1f;        // canopies: nearer along a ray, two of its surfaces are one
+constexpr float kApart = 0.004f;      // canopies: nearer along a ray, two of its surfaces are one
 constexpr float kNoHandover_m = 1e6f; // geometry at every distance
 
 } // namespace
