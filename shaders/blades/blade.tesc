@@ -47,7 +47,10 @@ void main() {
     blade_out[gl_InvocationID].across = blade_in[0].across;
     // Teeth are finer than the blade's curve.
     float finer = surface_shape.x == float(kShapeDandelion) ? 3.0 : 1.0;
-    float along = surface_blade_level(ceil(finer * span * pixels / frame.pose_band.z), 24.0, surface_shape);
+    float wanted = ceil(span * pixels / frame.pose_band.z);
+    bool head = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0;
+    float along = surface_shape.x == kShapeOfSet ? clamp(wanted, head ? 8.0 : 2.0, 12.0)
+                                                 : surface_blade_level(ceil(finer * span * pixels / frame.pose_band.z), 24.0, surface_shape);
 #else
     // A head has a curved rim of its own.
     float least = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0 ? 8.0 : 2.0;

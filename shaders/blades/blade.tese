@@ -35,7 +35,9 @@ void main() {
     float u = gl_TessCoord.x;
 #ifdef SURFACE
     float level = gl_TessLevelOuter[0];
-    float v = surface_blade_station(gl_TessCoord.y, surface_shape, level);
+    bool of_set = surface_shape.x == kShapeOfSet;
+    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    float v = of_set ? blade_station(gl_TessCoord.y, outline) : surface_blade_station(gl_TessCoord.y, surface_shape, level);
     vec3 t1 = blade_in[0].across.xyz;
     open_sky = blade_in[0].sway.z;
 #else
@@ -52,7 +54,7 @@ void main() {
     float pixels = 2.0 * half_width * frame.eye.w / max(distance(centre, frame.eye.xyz), 0.05);
     float phi = 1.0 - clamp((pixels - frame.handover.z) / frame.handover.w, 0.0, 1.0);
 #ifdef SURFACE
-    float t = surface_blade_outline(u, v, surface_shape, vec2(level, phi));
+    float t = of_set ? mix(blade_outline(u, v, outline), u, phi * phi) : surface_blade_outline(u, v, surface_shape, vec2(level, phi));
 #else
     float t = mix(blade_outline(u, v, outline), u, phi * phi);
 #endif

@@ -46,6 +46,9 @@ uint verdict(uvec2 item, uint index) {
     SurfaceBlade blade = surface_blades[index];
     vec3 root = surface_root(blade);
     float reach = blade.v1_height.w;
+    if (!handover_may_be_near(surface_rank_seed(index).x, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x)) {
+        return uint(CULL_LEFT);
+    }
     if (tested(CULL_FRUSTUM) && !in_view(root, reach)) {
         return uint(CULL_FRUSTUM);
     }

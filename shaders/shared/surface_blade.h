@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 // J1, 64 bytes. Metres in the mesh's space; v1 and v2 relative to the root, in the calm: where gravity and recovery balance.
 struct SurfaceBlade {
-    vec4 root_direction; // root; turn of the width direction about `up` (rad)
+    vec4 root_direction; // root; turn of the width direction about `up` (rad), whole turns more by the number of a set's species
     vec4 v1_height;      // middle control point; length of the blade
     vec4 v2_width;       // tip; half width at its widest
     vec4 up_stiffness;   // the surface's unit normal at the root; stiffness: recovery rate, 0 limp .. 1 stiff
@@ -90,6 +90,7 @@ SHARED_CONST int kShapeTriangle = 1;
 SHARED_CONST int kShapeQuadratic = 2;
 SHARED_CONST int kShapeTriangleTip = 3;
 SHARED_CONST int kShapeDandelion = 4;
+SHARED_CONST float kShapeOfSet = -1.0f; // a set's blade: the outline of its species
 
 // Segments along a blade of this shape when it could do with `wanted`, at most `most` (even): an even number where an outline has kinks, so
 // that stations meet them. A leaf's is twice the number of its teeth, or a multiple: each has its point and its notch.

@@ -45,16 +45,16 @@ vec2 correction_at(MarchPlan plan) {
     return max(mix(factors.xy, factors.zw, thin), vec2(0.05));
 }
 
-// What the mean light of such a view is to be multiplied by (shells/march_light.h).
-vec3 light_factor(View view, Entry entry, float elevation) {
-    vec2 eye = -view.way.xz + vec2(1e-5, 0.0);
-    vec2 sun = frame.light.to_sun.xz + vec2(1e-5, 0.0);
+// What the mean light of such a view is to be multiplied by (shells/march_light.h). `elevation`: sine of the view's over the ground.
+float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
+    vec2 eye = to_eye.xz + vec2(1e-5, 0.0);
+    vec2 sun = to_sun.xz + vec2(1e-5, 0.0);
     float azimuth = atan(eye.x * sun.y - eye.y * sun.x, dot(eye, sun)) / (2.0 * kPi);
     vec2 size = vec2(textureSize(light_factors, 0));
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
-    float gust = far_wind_place(frame.wind, entry.air.xy);
+    float gust = far_wind_place(frame.wind, wind);
     float calmer = min(floor(gust), float(kFarWinds - 2));
-    return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).rgb, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).rgb, gust - calmer);
+    return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).r, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).r, gust - calmer);
 }
 
 vec3 texel_place(MarchPlan plan, MarchStep taken) {
@@ -86,14 +86,14 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     march_settle(plan);
     vec2 factors = correction_at(plan);
     float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
-    Light light = light_in_sway(frame.light, entry.air.zw);
-    vec3 normal = normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
+    Light light = light_at(entry);
+    vec3 normal = normal_at(entry);
     float slope = dot(normal, light.to_sun.xyz);
-    float steepness = march_steepness(plan, view.way.y);
-    float ground = kOnGround * min(path.height.x / max(-path.height.y, 1e-4), kNever);
+    float steepness = march_steepness(plan, path.way.y);
+    float ground = kOnGround * ground_reach(path);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
     seen.grass = march_nothing();
-#ifdef CREST
+#if defined(CREST) || defined(SURFACE)
     MarchWalk walk = march_begin_inside(path);
 #else
     MarchWalk walk = march_begin(path);
@@ -126,16 +126,16 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         texels_read += taken.mip < kFibresTo ? 2 : 1;
 #endif
     }
-    float level = length(view.way.xz);
-    float fall = -path.height.y;
-    float rise = dot(entry.ground.xy, view.way.xz) / max(level, 1e-4);
-    march_stand(seen.grass, light, MarchGround(atan(max(fall, 0.0), level) * (180.0 / kPi), rise, slope), -view.way);
-    radiance = march_radiance(light, seen.grass, -view.way) * factors.y * sward_tint(entry.ground.w) *
-               light_factor(view, entry, clamp(fall * inversesqrt(fall * fall + level * level), 0.0, 1.0));
+    vec3 to_eye = to_eye_at(entry, view);
+    float level = length(to_eye.xz);
+    float fall = max(-path.height.y, 0.0);
+    march_stand(seen.grass, light, MarchGround(atan(fall, level) * (180.0 / kPi), rise_at(entry, view), slope), to_eye);
+    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(entry.ground.w) *
+               light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
     return walk;
 }
 
-#ifdef CREST
+#if defined(CREST) && !defined(SURFACE)
 // Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else kNever.
 float next_entry(View view, float from, float last, float canopy) {
     const int kProbes = 20, kHalvings = 8;
@@ -184,7 +184,7 @@ void main() {
     }
     float farthest = max(max(scene.x, scene.y), max(scene.z, scene.w));
     Entry entry = entry_of(view, pixel);
-    vec3 normal = normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
+    vec3 normal = normal_at(entry);
     vec3 radiance = vec3(0.0);
     vec4 through = vec4(1.0);
     float half_way = kNever;
@@ -202,7 +202,11 @@ void main() {
         radiance += grass * haze.a + haze.rgb * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
+#ifdef SURFACE
+        entry = second_entry(view, pixel);
+#else
         entry = entry_after(view, entry, path, walk, farthest);
+#endif
 #endif
     }
     float left = mean_of(through);

@@ -11,6 +11,13 @@ flat out vec4 eye_ground;
 flat out vec4 eye_air;
 
 void main() {
+#ifdef SURFACE // an eye within the canopy of a mesh is not known of
+    ndc = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+    gl_Position = vec4(ndc, plane, 1.0);
+    eye_place = vec2(0.0);
+    eye_ground = vec4(0.0);
+    eye_air = vec4(0.0);
+#else
     ndc = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(ndc, plane, 1.0);
     float canopy = frame.patch_grid.w;
@@ -20,4 +27,5 @@ void main() {
     eye_place = vec2(eye_height < top + kNear_m ? 1.0 : 0.0, eye_height);
     eye_ground = vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
     eye_air = vec4(wind, sway_at(frame.eye.xyz - vec3(0.0, eye_height, 0.0), wind).xy);
+#endif
 }

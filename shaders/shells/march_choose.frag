@@ -13,8 +13,7 @@ void main() {
     if (entry.distance < kNever) {
         MarchPath path = path_of(view, entry);
         bool crest = at_crest(path);
-        float ground = path.height.x / max(-path.height.y, 1e-4);
-        if (crest || entry.distance + 1.2 * ground > near_reach()) { // the ground curves a little
+        if (crest || entry.distance + 1.2 * ground_reach(path) > near_reach()) { // the ground curves a little
             gl_FragDepth = kind_depth(plan_of(view, entry, path).kind, crest);
         }
     }

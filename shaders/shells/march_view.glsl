@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's ray and where it enters the canopy: for the choice of its kind and for the march itself.
+// A pixel's ray and where it enters the canopy: for the choice of its kind and for the march itself. SURFACE: the canopy of a mesh.
 #include "lib/ground.glsl"
 #include "shared/bend.h"
 #include "shared/lod.h"
@@ -7,6 +7,7 @@
 
 layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
 #include "shared/march.h"
+#include "shared/surface_chart.h"
 
 layout(binding = TEX_CANOPY_DEPTH) uniform sampler2D canopy_depth;
 layout(binding = TEX_CANOPY_GROUND) uniform sampler2D canopy_ground;
@@ -29,8 +30,13 @@ struct View {
 struct Entry {
     float distance; // along the ray (m); kNever: nowhere
     float height;   // over the ground (m)
-    vec4 ground;    // slope, density, tint
+    vec4 ground;    // slope (of a mesh: unused; room), density, tint
     vec4 air;       // wind, canopy_sway
+#ifdef SURFACE
+    SurfaceFrame frame; // the patch's axes there, in the world
+    vec2 place;     // of the entry on its chart (m)
+    vec2 curve_end; // bend of the surface under the ray, half of the height's second derivative (1/m); where the ray leaves the canopy (m from the eye)
+#endif
 };
 
 View view_of(ivec2 pixel, vec2 ndc) {
@@ -42,6 +48,9 @@ View view_of(ivec2 pixel, vec2 ndc) {
     return view;
 }
 
+#ifdef SURFACE
+#include "shells/surface_view.glsl"
+#else
 vec4 ground_under(vec2 xz) {
     Ground ground = ground_surface(xz);
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
@@ -88,6 +97,27 @@ bool at_crest(MarchPath path) {
     float a = path.height.y;
     return eye_place.x > 0.5 || a >= 0.0 || 4.0 * path.height.z * path.height.x > 0.5 * a * a;
 }
+
+// Where a path that is not looked at closely comes to the ground.
+float ground_reach(MarchPath path) {
+    return min(path.height.x / max(-path.height.y, 1e-4), kNever);
+}
+
+// Light, and directions, as the canopy's own axes have them: level ground's are the world's.
+Light light_at(Entry entry) {
+    return light_in_sway(frame.light, entry.air.zw);
+}
+vec3 normal_at(Entry entry) {
+    return normalize(vec3(-entry.ground.x, 1.0, -entry.ground.y));
+}
+vec3 to_eye_at(Entry entry, View view) {
+    return -view.way;
+}
+// Metres that the ground rises along the ray for a metre.
+float rise_at(Entry entry, View view) {
+    return dot(entry.ground.xy, view.way.xz) / max(length(view.way.xz), 1e-4);
+}
+#endif
 
 // So far from the eye all blades are the near tier's (m).
 float near_reach() {

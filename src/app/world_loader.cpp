@@ -55,8 +55,10 @@ render::World load_world(const scene::Scene& scene) {
     world.meshes = load_meshes(scene);
     world.spheres = load_spheres(scene, world.meshes);
     if (!scene.terrain.surface.empty()) {
-        world.surface = load_mesh(scene.terrain.surface); // its grass is placed, not baked
+        world.surface = load_mesh(scene.terrain.surface); // its grass is placed
         scene::settle_places(world.scene, {});
+        if (!scene.surface_grass.set.empty())
+            world.grass = load_grass(scene);
         return world;
     }
     world.elevation = load_elevation(scene.terrain);

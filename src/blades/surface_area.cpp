@@ -90,8 +90,8 @@ void SurfaceArea::link_neighbours() {
     std::vector<Edge> edges;
     edges.reserve(3 * mesh_.triangles.size());
     for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) {
-        const bool covered = cumulative_[t] > (t > 0 ? cumulative_[t - 1] : 0);
-        for (int k = 0; covered && k < 3; ++k) {
+        const bool grows = covered(t);
+        for (int k = 0; grows && k < 3; ++k) {
             const std::uint32_t a = same[mesh_.triangles[t][static_cast<std::size_t>(k)]];
             const std::uint32_t b = same[mesh_.triangles[t][static_cast<std::size_t>((k + 1) % 3)]];
             edges.push_back({std::min(a, b), std::max(a, b), t, k});

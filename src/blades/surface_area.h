@@ -25,6 +25,8 @@ public:
 
     [[nodiscard]] double total_m2() const { return cumulative_.empty() ? 0 : cumulative_.back(); }
     [[nodiscard]] const scene::Mesh& mesh() const { return mesh_; }
+    /// May grass stand on it?
+    [[nodiscard]] bool covered(std::uint32_t triangle) const { return cumulative_[triangle] > (triangle > 0 ? cumulative_[triangle - 1] : 0); }
     /// The place that uniform u.x of the area, u.y and u.z within its triangle, in [0, 1) each, fall on (J2).
     [[nodiscard]] SurfacePoint sample(glm::dvec3 u) const;
     /// Unit normal of the surface there: between the vertices', on the triangle's own side.
@@ -37,11 +39,12 @@ public:
     /// Finds which triangles share edges: places that are the same to the bit are one vertex, whatever their number.
     void link_neighbours();
 
-private:
-    static constexpr std::uint32_t kNone = 0xffffffffu;
     [[nodiscard]] glm::dvec3 corner(std::uint32_t triangle, int k) const {
         return glm::dvec3(mesh_.positions[mesh_.triangles[triangle][static_cast<std::size_t>(k)]]);
     }
+
+private:
+    static constexpr std::uint32_t kNone = 0xffffffffu;
     [[nodiscard]] double area(std::uint32_t triangle) const;
 
     const scene::Mesh& mesh_;

@@ -22,7 +22,11 @@ public:
     /// Clusters a buffer: a storage block may be as small as 128 MiB, this is 64.
     static constexpr std::size_t kPageClusters = 8192;
 
-    SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec);
+    /// `set`: that the blades are of; null: they are described by `spec`.
+    SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec, const grass::GrassSet* set);
+
+    /// No blade stands farther than `end` (m) from `eye` (anchor-relative): clusters beyond are not looked at.
+    void limit(glm::vec3 eye, float end) { reach_ = {eye, end}; }
 
     /// Culls and draws what the view reaches, page by page and batch by batch. `origin`: of the mesh's space, anchor-relative.
     /// `draw`: the SURFACE variant. Before: frame constants are bound, the depth pyramid where occlusion is tested. `keep_total`: later
@@ -72,13 +76,14 @@ private:
         std::vector<SurfaceCluster> clusters; ///< `first` within the page
         std::size_t first_cluster = 0;        ///< among all
     };
-    [[nodiscard]] static TileList select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin);
+    [[nodiscard]] TileList select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin) const;
     void describe(const gl::Program& program, glm::vec3 origin, float thin_out) const;
 
     std::vector<Page> pages_;
     CullPass cull_;
     glm::vec4 shape_;
     float canopy_m_, thin_out_m_;
+    glm::vec4 reach_{0, 0, 0, 1e30f}; ///< limit()'s
     std::size_t count_;
     std::uint64_t considered_ = 0;
 };

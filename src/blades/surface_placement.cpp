@@ -25,7 +25,9 @@ glm::dvec3 units(std::uint64_t seed, Stream stream, std::uint64_t index) {
     return {base::hash_unit(seed, stream, 3 * index), base::hash_unit(seed, stream, 3 * index + 1), base::hash_unit(seed, stream, 3 * index + 2)};
 }
 
-void check_mesh(const scene::Mesh& mesh, const std::filesystem::path& file) {
+} // namespace
+
+void check_surface(const scene::Mesh& mesh, const std::filesystem::path& file) {
     const auto refuse = [&](const std::string& found, const char* expected) {
         throw base::input_error(ExitCode::kBadInput, file, 0, "surface", found, expected);
     };
@@ -45,6 +47,8 @@ void check_mesh(const scene::Mesh& mesh, const std::filesystem::path& file) {
         if (!finite(mesh.positions[i]) || !finite(mesh.normals[i]))
             refuse(fmt::format("vertex {} that is not finite", i), "finite numbers");
 }
+
+namespace {
 
 std::size_t checked_count(double area_m2, const scene::SurfaceGrassSpec& spec, const std::filesystem::path& file) {
     if (!(area_m2 > 0))
@@ -114,17 +118,6 @@ shared::SurfaceBlade make_blade(const Root& root, const scene::SurfaceGrassSpec&
     return {glm::vec4(glm::vec3(root.at.place), turn), glm::vec4(v1, height), glm::vec4(v2, half_width), glm::vec4(up, stiffness)};
 }
 
-void add_cluster(SurfaceBlades& out, std::size_t first, std::size_t last) {
-    SurfaceCluster cluster{glm::vec3(1e30f), glm::vec3(-1e30f), static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first)};
-    for (std::size_t i = first; i < last; ++i) {
-        const shared::SurfaceBlade& blade = out.blades[i];
-        const glm::vec3 root(blade.root_direction), reach(1.01f * blade.v1_height.w + blade.v2_width.w); // 1 %: of the length's estimate
-        cluster.low = glm::min(cluster.low, root - reach); // however it bends, a blade stays within its length of the root
-        cluster.high = glm::max(cluster.high, root + reach);
-    }
-    out.clusters.push_back(cluster);
-}
-
 /// Places of a grid of cells, hashed: for the darts.
 class PlaceGrid {
 public:
@@ -156,6 +149,17 @@ private:
 
 } // namespace
 
+void add_cluster(SurfaceBlades& out, std::size_t first, std::size_t last) {
+    SurfaceCluster cluster{glm::vec3(1e30f), glm::vec3(-1e30f), static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last - first)};
+    for (std::size_t i = first; i < last; ++i) {
+        const shared::SurfaceBlade& blade = out.blades[i];
+        const glm::vec3 root(blade.root_direction), reach(1.01f * blade.v1_height.w + blade.v2_width.w); // 1 %: of the length's estimate
+        cluster.low = glm::min(cluster.low, root - reach); // however it bends, a blade stays within its length of the root
+        cluster.high = glm::max(cluster.high, root + reach);
+    }
+    out.clusters.push_back(cluster);
+}
+
 std::vector<SurfacePoint> tuft_centres(const SurfaceArea& area, std::size_t wanted, double apart_m, std::uint64_t seed) {
     std::vector<SurfacePoint> centres;
     std::vector<glm::dvec3> normals;
@@ -177,7 +181,7 @@ std::vector<SurfacePoint> tuft_centres(const SurfaceArea& area, std::size_t want
 }
 
 SurfaceBlades place_surface_grass(const scene::Mesh& mesh, const scene::SurfaceGrassSpec& spec, const std::filesystem::path& file) {
-    check_mesh(mesh, file);
+    check_surface(mesh, file);
     SurfaceArea area(mesh, spec.slope_deg);
     const std::size_t count = checked_count(area.total_m2(), spec, file);
     const auto in_tufts = static_cast<std::size_t>(std::llround(static_cast<double>(count) * spec.share_in_tufts()));

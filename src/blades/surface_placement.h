@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 #include "blades/surface_area.h"
+#include "grass/grass_set.h"
 #include "scene/mesh.h"
 #include "scene/surface_grass.h"
 #include "shared/surface_blade.h"
@@ -34,6 +35,21 @@ inline constexpr std::size_t kMostSurfaceTriangles = 10'000'000;
 /// index past its end; kOverLimit for more triangles or blades than the limits.
 [[nodiscard]] SurfaceBlades place_surface_grass(const scene::Mesh& mesh, const scene::SurfaceGrassSpec& spec,
                                                 const std::filesystem::path& file);
+
+/// The blades of a set on a mesh: those of its patches, laid on the mesh chart by chart (shared/surface_chart.h), which is where the far field
+/// reads them. `density`: share of them that stands, by seed. Throws Error likewise.
+struct SetPlacing {
+    const grass::GrassSet& set;
+    double density = 1;
+    double slope_deg = 180;
+};
+[[nodiscard]] SurfaceBlades place_set_on_surface(const scene::Mesh& mesh, const SetPlacing& placing, const std::filesystem::path& file);
+
+/// Throws Error as place_surface_grass for what is no surface.
+void check_surface(const scene::Mesh& mesh, const std::filesystem::path& file);
+
+/// The blades first .. last - 1 as a cluster.
+void add_cluster(SurfaceBlades& out, std::size_t first, std::size_t last);
 
 /// Poisson-disk centres on the surface by dart throwing: none nearer than `apart_m` to another on the same side of it, at most
 /// `wanted` (fewer where no more fit).

@@ -161,17 +161,13 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
 void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, const FieldView& field) {
     shells::MarchPass& march = passes(settings.aov).march;
     {
-        const gl::PassScope pass(timers, "far light");
-        march_light.update(shot.constants.light, shot.constants.wind);
-        march_light.bind();
-    }
-    {
         const gl::PassScope pass(timers, "canopy");
         canopy.require(settings.width, settings.height);
         march.draw_canopy(canopy, static_cast<int>(field.blocks.size()), block_mesh);
     }
     const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
-    const shells::MarchPass::Inputs inputs{march_textures, canopy, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z)), settings.count_steps};
+    const shells::MarchPass::Inputs inputs{march_textures, canopy, nullptr, {}, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z)),
+                                           settings.count_steps};
     const gl::PassScope pass(timers, "far field");
     targets.bind_resolved();
     march.choose(inputs);
@@ -208,8 +204,17 @@ void Renderer::Impl::draw_picture(const View& view, const FrameSettings& setting
         const gl::PassScope pass(timers, "resolve");
         draw.screen.resolve(targets, 1.0f / static_cast<float>(pictures), picture == 0);
     }
-    if (marches(settings) && !mesh_ground && !march_textures.empty()) {
-        draw_far(settings, shot, field);
+    if (marches(settings) && !march_textures.empty()) {
+        {
+            const gl::PassScope pass(timers, "far light");
+            march_light.update(constants.light, constants.wind);
+            march_light.bind();
+        }
+        if (mesh_ground) {
+            draw_mesh_far(settings, shot);
+        } else {
+            draw_far(settings, shot, field);
+        }
     }
 }
 

@@ -119,7 +119,7 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
         out.looks[i] = set.species[i].look;
     }
     if (mesh_ground) {
-        mesh_ground->describe(out);
+        mesh_ground->describe(out, settings.far == FarScheme::kMarch);
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, view.time_s);

@@ -26,9 +26,9 @@ namespace sward::render {
 
 /// Draw passes of one variant: with or without AOV outputs.
 struct DrawPasses {
-    DrawPasses(bool aov, bool block_shapes)
+    DrawPasses(bool aov, bool block_shapes, bool surface)
         : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
-          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov), screen(aov), meshes(aov) {}
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov, surface), screen(aov), meshes(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;
     shells::FarPass shells, slices;
@@ -69,6 +69,8 @@ struct Renderer::Impl {
     void draw_far(const FrameSettings& settings, const Shot& shot, const FieldView& field);
     void build_pyramid(const FrameSettings& settings);
     void draw_mesh_ground(const FrameSettings& settings, const Shot& shot);
+    /// The far field of a mesh's set, likewise.
+    void draw_mesh_far(const FrameSettings& settings, const Shot& shot);
     void draw_objects(const FrameSettings& settings, const Shot& shot, double time_s);
     void make_object_meshes();
     /// Pages of living blades in and out, and whole steps of the wind and the blades up to the view's time.
@@ -90,6 +92,7 @@ struct Renderer::Impl {
     wind::Wind wind;
     shells::MarchTextures march_textures;
     shells::CanopyTargets canopy;
+    shells::SurfaceTargets surface_canopy; ///< of a mesh
     shells::FarTextures far_textures; ///< of the raster schemes, where the world wants them
     shells::FarAppearance far_appearance;
     shells::MarchLight march_light;
@@ -101,7 +104,7 @@ struct Renderer::Impl {
     blades::Colliders colliders;
     std::unique_ptr<blades::Simulation> simulation; ///< of the set's blades; made for the first frame that wants it
     std::unique_ptr<DrawPasses> plain_passes, aov_passes;
-    std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field, no far tier
+    std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field on elevation
     std::unique_ptr<blades::SurfaceSimulation> surface_simulation; ///< of a mesh's; goes before its ground
     std::map<std::filesystem::path, MeshBuffer> object_meshes; ///< under the scene's names; "": the ball
     Targets targets;

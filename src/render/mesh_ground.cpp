@@ -10,13 +10,17 @@ namespace sward::render {
 
 namespace {
 
-constexpr float kNoHandover_m = 1e6f; // geometry at every distance: a mesh has no far tier
+constexpr float kApart = 0.004f;      // canopies: nearer along a ray, two of its surfaces are one
+constexpr float kNoHandover_m = 1e6f; // geometry at every distance
 
 } // namespace
 
-MeshGround::MeshGround(const scene::Mesh& mesh, const scene::Scene& scene)
+MeshGround::MeshGround(const scene::Mesh& mesh, const scene::Scene& scene, const grass::GrassSet* set)
     : spec_(scene.surface_grass), mesh_(mesh),
-      grass_(blades::place_surface_grass(mesh, spec_, scene.terrain.surface), spec_) {}
+      grass_(set ? blades::place_set_on_surface(mesh, {*set, scene.grass.density, spec_.slope_deg}, scene.terrain.surface)
+                 : blades::place_surface_grass(mesh, spec_, scene.terrain.surface),
+             spec_, set),
+      canopy_(set ? std::make_unique<shells::SurfaceCanopy>(mesh, spec_.slope_deg) : nullptr) {}
 
 MeshPass::Look MeshGround::look(glm::vec3 origin) const {
     MeshPass::Look look;
@@ -29,7 +33,16 @@ MeshPass::Look MeshGround::look(glm::vec3 origin) const {
     return look;
 }
 
-void MeshGround::describe(shared::FrameConstants& frame) const {
+void MeshGround::describe(shared::FrameConstants& frame, bool far_field) const {
+    if (!has_set() || !far_field) {
+        frame.handover.x = kNoHandover_m;
+        frame.handover.y = 1.001f * kNoHandover_m;
+    }
+    if (has_set()) {
+        frame.patch_grid.x = frame.patch_grid.y = 0;
+        frame.patch_tile.x = frame.patch_tile.y = 0;
+        return;
+    }
     shared::GrassAppearance& look = frame.looks[0];
     look.root = glm::vec4(glm::vec3(spec_.root_colour), spec_.dry_share);
     look.tip = glm::vec4(glm::vec3(spec_.tip_colour), spec_.variation);
@@ -38,8 +51,6 @@ void MeshGround::describe(shared::FrameConstants& frame) const {
     look.outline = {2, 1, 1, 1};
     frame.patch_grid.w = static_cast<float>(spec_.blade_height_m.y);
     frame.pose_band.w = static_cast<float>(mean_blade_width_m());
-    frame.handover.x = kNoHandover_m;
-    frame.handover.y = 1.001f * kNoHandover_m;
 }
 
 void Renderer::Impl::draw_mesh_ground(const FrameSettings& settings, const Shot& shot) {
@@ -54,12 +65,32 @@ void Renderer::Impl::draw_mesh_ground(const FrameSettings& settings, const Shot&
     }
     build_pyramid(settings);
     const blades::CullTests tests = settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false} : settings.cull;
+    mesh_ground->grass().limit(glm::vec3(shot.constants.lod_eye), shot.constants.handover.y);
     mesh_ground->grass().execute(terrain::Frustum(shot.constants.clip_from_world), origin, draw.surface(settings.aov), tests,
                                  counts.blades_considered > 0, living(settings) ? surface_simulation.get() : nullptr, [&](const char* name, auto&& step) {
                                      const gl::PassScope pass(timers, name);
                                      step();
                                  });
     counts.blades_considered = mesh_ground->grass().considered();
+}
+
+void Renderer::Impl::draw_mesh_far(const FrameSettings& settings, const Shot& shot) {
+    if (!mesh_ground->has_set()) {
+        return;
+    }
+    shells::MarchPass& march = passes(settings.aov).march;
+    const glm::vec3 origin(-shot.anchor);
+    {
+        const gl::PassScope pass(timers, "canopy");
+        surface_canopy.require(settings.width, settings.height);
+        march.draw_surface(surface_canopy, mesh_ground->canopy(), origin, kApart * world.grass.canopy_m);
+    }
+    const shells::MarchPass::Inputs inputs{march_textures, surface_canopy.first, &surface_canopy, origin, targets.samples(), 0};
+    const gl::PassScope pass(timers, "far field");
+    targets.bind_resolved();
+    march.choose(inputs);
+    targets.bind_scene_textures();
+    march.execute(inputs);
 }
 
 void Renderer::Impl::draw_objects(const FrameSettings& settings, const Shot& shot, double time_s) {

@@ -49,8 +49,8 @@ Renderer::Impl::Impl(World inputs)
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
       colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
     if (!world.surface.triangles.empty()) {
-        mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene);
-        mean_blade_width_m = mesh_ground->mean_blade_width_m();
+        mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
+        mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
         world.surface = {};
     }
     make_object_meshes();
@@ -69,7 +69,7 @@ Renderer::Impl::Impl(World inputs)
 DrawPasses& Renderer::Impl::passes(bool aov) {
     auto& slot = aov ? aov_passes : plain_passes;
     if (!slot) {
-        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes());
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), mesh_ground != nullptr);
     }
     return *slot;
 }
@@ -127,13 +127,13 @@ FrameStats Renderer::stats() {
         stats.passes.push_back({row.name, row.gpu_ms, row.cpu_ms});
     }
     const FrameSettings& settings = impl_->last_settings;
-    if (!impl_->mesh_ground && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
+    if ((!impl_->mesh_ground || impl_->mesh_ground->has_set()) && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
-        if (settings.far == FarScheme::kPlanes) {
+        if (settings.far == FarScheme::kPlanes && !impl_->mesh_ground) {
             stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
             stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
-        } else if (settings.shells && !impl_->march_textures.empty()) {
+        } else if (settings.far == FarScheme::kMarch && settings.shells && !impl_->march_textures.empty()) {
             stats.shell_fragments = passes.march.pixels().y;
             stats.slice_fragments = passes.march.pixels().x;
             if (settings.count_steps) {

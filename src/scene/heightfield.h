@@ -46,7 +46,7 @@ struct DensityMask {
     glm::dvec2 first_m{0, 0};   ///< x, z of the north-west corner
     glm::dvec2 size_m{0, 0};    ///< of the rectangle; zero: the elevation's, from its first post to its last
     bool bounded = false;       ///< no grass outside the rectangle; else its rim goes on
-    std::map<int, double> class_shares; ///< of the terrain's area, by class of a landcover; -1: no value there
+    std::map<int, double> class_shares{}; ///< of the terrain's area, by class of a landcover; -1: no value there
 };
 
 /// SRTM .hgt tile (big-endian int16, named like N36W085.hgt; 1201, 3601 or 7201 rows, and as many columns or, in the north,

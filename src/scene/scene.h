@@ -32,7 +32,7 @@ struct PathKey {
     glm::dvec3 position{0, 0, 0};
     double yaw_deg = 0;
     double pitch_deg = 0;
-    std::optional<glm::dvec2> geo; ///< as of a Pose
+    std::optional<glm::dvec2> geo{}; ///< as of a Pose
 };
 
 /// Keys in rising time; Catmull-Rom in position, shortest turn in yaw; held at both ends.
@@ -77,7 +77,7 @@ struct ObjectSpec {
     glm::dvec3 colour{0.45, 0.42, 0.38}; ///< linear reflectance
     bool collides = true;   ///< grass feels it
     int most_spheres = 256; ///< that a mesh which grass feels is packed with
-    std::optional<glm::dvec2> geo; ///< as of a Pose
+    std::optional<glm::dvec2> geo{}; ///< as of a Pose
 };
 
 /// Overrides of the tiers' distances; unset means by projected size.

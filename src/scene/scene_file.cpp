@@ -91,7 +91,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     if (surface_grass && scene.terrain.surface.empty())
         throw root.error("surface_grass", "terrain.elevation", "terrain.surface beside it");
     if (surface_grass)
-        read_surface_grass(*surface_grass, scene.surface_grass);
+        read_surface_grass(*surface_grass, scene.surface_grass, scene.grass);
     if (sun)
         read_sun(*sun, scene.sun);
     if (cameras)

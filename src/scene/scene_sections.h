@@ -11,7 +11,8 @@ namespace sward::scene {
 void read_terrain(TableReader table, TerrainSpec& terrain);
 void read_grass(TableReader table, GrassSpec& grass);
 /// [surface_grass]: grass on terrain.surface. In surface_section.cpp.
-void read_surface_grass(TableReader table, SurfaceGrassSpec& grass);
+/// `of_set`: what a set that it names, and its density, are noted in.
+void read_surface_grass(TableReader table, SurfaceGrassSpec& grass, GrassSpec& of_set);
 /// A linear reflectance [r, g, b], each 0 to 1.
 void read_colour(TableReader& table, const char* key, glm::dvec3& colour);
 void read_sun(TableReader table, SunSpec& sun);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
+
 #include <glm/glm.hpp>
 
 namespace sward::scene {
@@ -12,6 +14,7 @@ enum class BladeShape { kQuad, kTriangle, kQuadratic, kTriangleTip, kDandelion }
 
 /// Grass on a mesh: [surface_grass] of a scene. Pairs are from and to, drawn evenly. Colours are linear reflectances.
 struct SurfaceGrassSpec {
+    std::string set; ///< a grass set that the blades are of, as GrassSpec::set; empty: what follows describes them, and there is no far field
     double density_per_m2 = 600; ///< blades; cost of placing and drawing grows with it
     Placement placement = Placement::kMixed;
     double tuft_share = 0.5;     ///< of the blades that stand in tufts, for kMixed

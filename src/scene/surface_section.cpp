@@ -35,9 +35,24 @@ void read_span(TableReader& table, const char* key, glm::dvec2& value, const Ran
     value = {given[0], given[1]};
 }
 
+/// With a set, what describes blades is the set's.
+void refuse_beside_set(const TableReader& table) {
+    for (const char* key : {"density_per_m2", "placement", "tuft_share", "tuft_blades", "tuft_radius_m", "tuft_gather", "blade_height_m", "blade_width_m",
+                            "stiffness", "droop", "lean", "shape", "thin_out_m", "tip_tau", "teeth", "tooth_depth", "root_colour", "tip_colour",
+                            "dry_colour", "dry_share", "variation", "translucency", "seed"})
+        if (table.has(key))
+            throw table.error(key, "set beside it, which describes the blades", "one of the two");
+}
+
 } // namespace
 
-void read_surface_grass(TableReader table, SurfaceGrassSpec& grass) {
+void read_surface_grass(TableReader table, SurfaceGrassSpec& grass, GrassSpec& of_set) {
+    if (table.text("set", grass.set)) {
+        of_set.set = grass.set;
+        refuse_beside_set(table);
+    }
+    if (table.number("density", of_set.density, kShare) && grass.set.empty())
+        throw table.error("density", "no set", "density_per_m2, or a set beside it");
     table.number("density_per_m2", grass.density_per_m2, {0.01, 1e6, "blades per m2"});
     grass.placement = static_cast<Placement>(read_word(table, "placement", kPlacements, static_cast<int>(grass.placement)));
     table.number("tuft_share", grass.tuft_share, kShare);

@@ -90,10 +90,10 @@ glm::vec3 MeanMarch::radiance(const shared::Light& light, const glm::vec4& wind,
     return shared::march_radiance(medium_, here, sums, to_eye) / std::max(1 - through, 1e-4f);
 }
 
-std::vector<glm::vec4> light_factors(const MeanMarch& mean, const grass::FarLight& truth, const shared::Light& light, const glm::vec4& wind) {
+std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& truth, const shared::Light& light, const glm::vec4& wind) {
     const std::vector<glm::vec4> seen = canopy_table(truth, light, wind);
     const float to_sun = std::atan2(light.to_sun.z, light.to_sun.x);
-    std::vector<glm::vec4> factors;
+    std::vector<float> factors;
     for (int row = 0; row < MarchLight::kElevations; ++row) {
         for (int column = 0; column < MarchLight::kAzimuths; ++column) {
             const float sine = std::max(static_cast<float>(row) / (MarchLight::kElevations - 1), kLeastSine);
@@ -102,7 +102,9 @@ std::vector<glm::vec4> light_factors(const MeanMarch& mean, const grass::FarLigh
             const glm::vec3 marched = mean.radiance(light, wind, {flat * std::cos(heading), sine, flat * std::sin(heading)});
             const std::size_t texel = factors.size();
             const glm::vec3 wanted = glm::vec3(seen[texel]) + glm::vec3(seen[texel + seen.size() / 2]);
-            factors.emplace_back(glm::clamp(wanted / glm::max(marched, glm::vec3(1e-6f)), 1 / MarchLight::kMost, MarchLight::kMost), 0);
+            // One factor for all colours: the march has the blades' own colours, the far light those of their mean.
+            const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
+            factors.push_back(std::clamp(glm::dot(wanted, luminance) / std::max(glm::dot(marched, luminance), 1e-6f), 1 / MarchLight::kMost, MarchLight::kMost));
         }
     }
     return factors;
@@ -121,17 +123,17 @@ void MarchLight::update(const shared::Light& light, const shared::WindField& win
     }
     light_ = light;
     wind_ = wind.mean;
-    std::vector<glm::vec4> texels;
+    std::vector<float> texels;
     for (int n = 0; n < shared::kFarWinds; ++n) {
-        const std::vector<glm::vec4> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
+        const std::vector<float> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
         texels.insert(texels.end(), one.begin(), one.end());
     }
     if (!table_.id()) {
-        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, shared::kFarWinds});
+        table_ = gl::Texture(GL_R16F, {kAzimuths, kElevations, shared::kFarWinds});
         table_.set_filter(GL_LINEAR, GL_LINEAR);
         table_.set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
     }
-    table_.upload(0, GL_RGBA, GL_FLOAT, texels.data());
+    table_.upload(0, GL_RED, GL_FLOAT, texels.data());
 }
 
 void MarchLight::bind() const { table_.bind(TEX_MARCH_LIGHT); }

@@ -18,29 +18,56 @@ void CanopyTargets::require(int width, int height) {
     surface_ = gl::Framebuffer({&ground_, &air_}, &depth_);
 }
 
-void CanopyTargets::bind_textures() const {
-    depth_.bind(TEX_CANOPY_DEPTH);
-    ground_.bind(TEX_CANOPY_GROUND);
-    air_.bind(TEX_CANOPY_AIR);
+void CanopyTargets::bind_textures(std::uint32_t first) const {
+    depth_.bind(first);
+    ground_.bind(first + TEX_CANOPY_GROUND - TEX_CANOPY_DEPTH);
+    air_.bind(first + TEX_CANOPY_AIR - TEX_CANOPY_DEPTH);
+}
+
+void SurfaceTargets::require(int width, int height) {
+    for (CanopyTargets* targets : {&first, &exit, &second}) {
+        targets->require(width, height);
+    }
+}
+
+void SurfaceTargets::bind_textures() const {
+    second.bind_textures(TEX_SECOND_DEPTH);
+    exit.depth().bind(TEX_CANOPY_EXIT);
 }
 
 namespace {
 
-gl::Program marcher(const char* name, bool aov, bool count, std::vector<std::string> defines) {
-    if (aov) {
-        defines.emplace_back("AOV");
+struct Variant {
+    bool aov, surface, count;
+    [[nodiscard]] std::vector<std::string> with(std::vector<std::string> defines) const {
+        if (aov) {
+            defines.emplace_back("AOV");
+        }
+        if (surface) {
+            defines.emplace_back("SURFACE");
+        }
+        if (count) {
+            defines.emplace_back("COUNT");
+        }
+        return defines;
     }
-    if (count) {
-        defines.emplace_back("COUNT");
-    }
-    return {name, {"shells/march.vert", "shells/march.frag"}, defines};
+};
+
+gl::Program marcher(const char* name, const Variant& variant, std::vector<std::string> defines) {
+    return {name, {"shells/march.vert", "shells/march.frag"}, variant.with(std::move(defines))};
+}
+
+std::vector<std::filesystem::path> canopy_stages(bool surface) {
+    return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}
+                   : std::vector<std::filesystem::path>{"shells/canopy.vert", "shells/canopy.frag"};
 }
 
 } // namespace
 
-MarchPass::Kinds::Kinds(bool aov, bool count)
-    : columns(marcher("columns", aov, count, {"COLUMNS"})), slabs(marcher("slabs", aov, count, {})),
-      crest_columns(marcher("columns at crests", aov, count, {"COLUMNS", "CREST"})), crest_slabs(marcher("slabs at crests", aov, count, {"CREST"})) {}
+MarchPass::Kinds::Kinds(bool aov, bool surface, bool count)
+    : columns(marcher("columns", {aov, surface, count}, {"COLUMNS"})), slabs(marcher("slabs", {aov, surface, count}, {})),
+      crest_columns(marcher("columns at crests", {aov, surface, count}, {"COLUMNS", "CREST"})),
+      crest_slabs(marcher("slabs at crests", {aov, surface, count}, {"CREST"})) {}
 
 void MarchPass::Kinds::reload() {
     for (gl::Program* program : {&columns, &slabs, &crest_columns, &crest_slabs}) {
@@ -48,9 +75,10 @@ void MarchPass::Kinds::reload() {
     }
 }
 
-MarchPass::MarchPass(bool aov)
-    : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}), choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}),
-      kinds_(aov, false), aov_(aov), counts_(2 * sizeof(std::uint32_t)) {
+MarchPass::MarchPass(bool aov, bool surface)
+    : canopy_("canopy", canopy_stages(surface)),
+      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, false}.with({})), kinds_(aov, surface, false),
+      aov_(aov), surface_(surface), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
@@ -84,17 +112,41 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     glDisable(GL_CULL_FACE);
 }
 
+void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m) {
+    constexpr float kFar[4] = {0, 0, 0, 0};
+    const auto draw = [&](const CanopyTargets& into, GLenum hidden, float behind) {
+        into.bind_for_drawing();
+        glClearBufferfv(GL_DEPTH, 0, kFar);
+        glCullFace(hidden);
+        canopy_.set("behind", behind);
+        mesh.draw();
+    };
+    glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
+    canopy_.use();
+    canopy_.set("surface_origin", glm::vec4(origin, 0));
+    draw(targets.exit, GL_FRONT, -1);
+    draw(targets.first, GL_BACK, 0);
+    targets.first.depth().bind(TEX_CANOPY_DEPTH);
+    draw(targets.second, GL_BACK, apart_m);
+    glDisable(GL_CULL_FACE);
+}
+
 void MarchPass::triangle(const gl::Program& program, const Inputs& inputs, float plane) const {
     program.use();
     program.set("eye_height", inputs.eye_height_m);
     program.set("plane", plane);
+    program.set("surface_origin", glm::vec4(inputs.origin, 0));
     glBindVertexArray(vertex_array_);
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 void MarchPass::choose(const Inputs& inputs) {
     inputs.textures.bind();
-    inputs.canopy.bind_textures();
+    inputs.canopy.bind_textures(TEX_CANOPY_DEPTH);
+    if (inputs.surface) {
+        inputs.surface->bind_textures();
+    }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
@@ -115,7 +167,7 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
 
 void MarchPass::execute(const Inputs& inputs) {
     if (inputs.count) {
-        counting_ = counting_ ? std::move(counting_) : std::make_unique<Kinds>(aov_, true);
+        counting_ = counting_ ? std::move(counting_) : std::make_unique<Kinds>(aov_, surface_, true);
         counts_.clear_to_zero();
         counts_.bind_storage(BIND_MARCH_COUNTS);
     }

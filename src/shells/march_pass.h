@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 
 #include <glm/glm.hpp>
@@ -11,6 +12,7 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "shells/march_textures.h"
+#include "shells/surface_canopy.h"
 #include "terrain/terrain_pass.h"
 
 namespace sward::shells {
@@ -20,18 +22,28 @@ class CanopyTargets {
 public:
     void require(int width, int height);
     void bind_for_drawing() const { surface_.bind(depth_.shape().width, depth_.shape().height); }
-    void bind_textures() const;
+    /// At units from TEX_CANOPY_DEPTH or TEX_SECOND_DEPTH on.
+    void bind_textures(std::uint32_t first) const;
+    [[nodiscard]] const gl::Texture& depth() const { return depth_; }
 
 private:
     gl::Texture depth_, ground_, air_;
     gl::Framebuffer surface_;
 };
 
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that through a wall, where it enters next.
+struct SurfaceTargets {
+    CanopyTargets first, exit, second;
+    void require(int width, int height);
+    void bind_textures() const;
+};
+
 /// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md). First each pixel's kind of march is chosen, as a
 /// depth; then each kind is drawn over its own pixels.
 class MarchPass {
 public:
-    explicit MarchPass(bool aov);
+    /// `surface`: over a mesh.
+    MarchPass(bool aov, bool surface);
     ~MarchPass();
     MarchPass(const MarchPass&) = delete;
     MarchPass& operator=(const MarchPass&) = delete;
@@ -39,9 +51,14 @@ public:
     /// The canopy's upper surface over the visible blocks. Before: frame constants and block samples are bound. After: another framebuffer is.
     void draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh);
 
+    /// A mesh's, its space's origin at `origin` (anchor-relative); `apart_m`: its parts are at least so far apart along a ray.
+    void draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m);
+
     struct Inputs {
         const MarchTextures& textures;
         const CanopyTargets& canopy;
+        const SurfaceTargets* surface = nullptr; ///< over a mesh; `canopy` is its first
+        glm::vec3 origin{0};                     ///< of the mesh's space, anchor-relative
         int samples = 1;        ///< a pixel of the scene has
         float eye_height_m = 0; ///< over the ground
         bool count = false;     ///< steps and reads, at the cost of two atomic additions a pixel
@@ -58,7 +75,7 @@ public:
 
 private:
     struct Kinds {
-        Kinds(bool aov, bool count);
+        Kinds(bool aov, bool surface, bool count);
         gl::Program columns, slabs;             ///< of rays that end in the canopy
         gl::Program crest_columns, crest_slabs; ///< of those that may leave it and come to another
         void reload();
@@ -68,7 +85,7 @@ private:
     gl::Program canopy_, choose_;
     Kinds kinds_;
     std::unique_ptr<Kinds> counting_; ///< made when first asked for
-    bool aov_;
+    bool aov_, surface_;
     gl::Buffer counts_;
     std::uint32_t vertex_array_ = 0;
     std::array<std::uint32_t, 2> queries_{}; ///< samples passed: slabs, columns

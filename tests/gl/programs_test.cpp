@@ -70,10 +70,14 @@ std::vector<Variant> variants() {
     }
     all.push_back({{"shells/canopy.vert", "shells/canopy.frag"}, {}});
     all.push_back({{"shells/march.vert", "shells/march_choose.frag"}, {}});
+    all.push_back({{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}, {}});
+    all.push_back({{"shells/march.vert", "shells/march_choose.frag"}, {"SURFACE"}});
     for (const char* kind : {"COLUMNS", "SLABS"}) {
         for (const char* rays : {"CREST", "PLAIN"}) {
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays}});
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV"}});
+            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE"}});
+            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE", "AOV"}});
         }
     }
     all.push_back({{"wind/forces.comp"}, {"INFLOW"}});
@@ -113,7 +117,7 @@ class Programs : public GlTest {};
 TEST_F(Programs, PassesBuildInBothVariants) {
     for (const bool aov : {false, true})
         for (const bool block_shapes : {false, true})
-            const render::DrawPasses passes(aov, block_shapes);
+            const render::DrawPasses passes(aov, block_shapes, block_shapes);
     const blades::CullPass cull;
     const terrain::BlockSamples samples;
 }
@@ -224,7 +228,12 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"canopy_depth", TEX_CANOPY_DEPTH},
                                                 {"canopy_ground", TEX_CANOPY_GROUND},
                                                 {"canopy_air", TEX_CANOPY_AIR},
+                                                {"canopy_exit", TEX_CANOPY_EXIT},
+                                                {"second_depth", TEX_SECOND_DEPTH},
+                                                {"second_ground", TEX_SECOND_GROUND},
+                                                {"second_air", TEX_SECOND_AIR},
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
+                                                {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
@@ -287,7 +296,7 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
             EXPECT_EQ(size, groups.at(program.name())) << program.name();
             continue;
         }
-        if (program.name() == "shells/canopy.frag" || program.name() == "shells/march_choose.frag") {
+        if (program.name().ends_with("canopy.frag") || program.name() == "shells/march_choose.frag") {
             continue; // what they draw is for the march, not a picture
         }
         EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();

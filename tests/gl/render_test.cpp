@@ -231,7 +231,8 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_GE(pass.cpu_ms, 0);
     }
     EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "select blocks", "block samples", "terrain", "depth pyramid",
-                                               "cull blades", "draw blades", "sky", "resolve", "canopy", "far field", "tone map"}));
+                                               "select blades", "cull blades", "draw blades", "sky", "resolve", "far light", "canopy", "far field",
+                                               "tone map"}));
     EXPECT_GT(stats.blades_simulated, 1000u);
     EXPECT_GT(stats.physics_bytes, 16 * stats.blades_simulated);
     EXPECT_GT(stats.blades_drawn, 100u);
@@ -244,7 +245,7 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
     renderer.draw(view, bare);
     const auto fewer = renderer.stats();
     EXPECT_EQ(fewer.blades_drawn + fewer.blades_considered + fewer.shell_fragments, 0u);
-    EXPECT_EQ(fewer.passes.size(), names.size() - 6);
+    EXPECT_EQ(fewer.passes.size(), names.size() - 8);
 }
 
 TEST_F(Render, TiersDrawWhatTheirNamesSay) {

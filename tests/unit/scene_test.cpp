@@ -268,6 +268,12 @@ TEST_F(SceneFile, SurfacesCarryTheirOwnGrass) {
     EXPECT_EQ(wrong("tip_color = [1, 1, 1]"), "scene.toml:4: unknown key: found surface_grass.tip_color, expected surface_grass.tip_colour");
     EXPECT_EQ(wrong("tip_colour = [1, 1, 2]"), "scene.toml:4: surface_grass.tip_colour[2]: found 2, expected a number from 0 to 1");
     EXPECT_EQ(wrong("placement = \"single\"\ntuft_share = 0.3"), "scene.toml:5: surface_grass.tuft_share: found no mixed placement, expected placement = \"mixed\" beside it");
+    const Scene of_set = load(kSurface + "[surface_grass]\nset = \"fur.toml\"\ndensity = 0.7\nslope_deg = 40\n");
+    EXPECT_EQ(of_set.surface_grass.set, "fur.toml");
+    EXPECT_EQ(of_set.grass.set, "fur.toml"); // what is looked up and baked
+    EXPECT_EQ(of_set.grass.density, 0.7);
+    EXPECT_EQ(wrong("set = \"fur.toml\"\nstiffness = [0.2, 0.4]"), "scene.toml:5: surface_grass.stiffness: found set beside it, which describes the blades, expected one of the two");
+    EXPECT_EQ(wrong("density = 0.5"), "scene.toml:4: surface_grass.density: found no set, expected density_per_m2, or a set beside it");
     EXPECT_EQ(error(kTerrain + "[surface_grass]\nseed = 1\n"), "scene.toml:3: surface_grass: found terrain.elevation, expected terrain.surface beside it");
 }
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh's canopy. Out: what a ray that enters it there has to know of the surface and the air (surface_view.glsl reads it). With
+// `behind` above 0 only what lies so far (m) behind the first canopy, below 0 only walls.
+#include "lib/frame.glsl"
+#include "shared/surface_chart.h"
+
+layout(binding = TEX_CANOPY_DEPTH) uniform sampler2D canopy_depth;
+layout(location = 0) out vec4 out_ground;
+layout(location = 1) out vec4 out_air;
+uniform float behind;
+
+const float kDepthStep = 2e-5; // what depths of one surface may differ by, over the distance
+const float kMeanHeight = 0.25; // of blade area, over the canopy
+
+in vec3 world;
+in vec3 normal;
+in vec3 squares;
+in vec3 products;
+in vec3 wind;
+in float height;
+in float room;
+in float on_top;
+flat in int chart;
+
+// Octahedral map of a unit vector (Cigolle et al. 2014).
+vec2 flattened(vec3 v) {
+    vec2 e = v.xy / (abs(v.x) + abs(v.y) + abs(v.z));
+    return v.z >= 0.0 ? e : (1.0 - abs(e.yx)) * vec2(e.x >= 0.0 ? 1.0 : -1.0, e.y >= 0.0 ? 1.0 : -1.0);
+}
+
+// z of the parabola of the ray's height: that of a circle of the surface's curvature under the ray, lifted to the entry, which comes as
+// near to the surface as the parabola then does.
+float parabola(vec3 way, vec3 up) {
+    vec3 along = way - up * dot(way, up);
+    vec3 bent = vec3(squares.x * along.x + products.z * along.y + products.y * along.z, products.z * along.x + squares.y * along.y + products.x * along.z,
+                     products.y * along.x + products.x * along.y + squares.z * along.z);
+    float level = dot(along, along);
+    float curve = dot(along, bent) / max(level, 1e-6);
+    float lifted = curve / max(1.0 + curve * height, 0.3);
+    return 0.25 * clamp(lifted * frame.patch_grid.w, -0.5, 2.0) / frame.patch_grid.w * (1.0 + sqrt(min(level, 1.0)));
+}
+
+// Share of the set's density at the mean height of its blades' area: on a ridge blades fan out. Below 1: it is the fraction beside the chart.
+float fanned_out() {
+    float y = kMeanHeight * frame.patch_grid.w;
+    float sum = squares.x + squares.y + squares.z;
+    float product = squares.x * squares.y + squares.y * squares.z + squares.z * squares.x - dot(products, products);
+    return clamp(1.0 / max(1.0 + y * (sum + y * product), 1.0), 0.05, 1.0);
+}
+
+void main() {
+    bool top = on_top > 0.5;
+    // Where the surface is hollow, the lifted one may be folded: of what then shows from within the true top lies elsewhere.
+    if (top && (behind < 0.0 || dot(world - frame.eye.xyz, normal) > 0.0)) {
+        discard;
+    }
+    if (behind > 0.0) {
+        float depth = texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r;
+        vec4 clip = frame.clip_from_world * vec4(world, 1.0);
+        if (depth <= 0.0 || clip.w < kNear_m / depth * (1.0 + kDepthStep) + behind) {
+            discard;
+        }
+    }
+    vec3 up = normalize(normal);
+    SurfaceFrame axes = surface_frame(chart, up);
+    vec3 local = to_surface(axes, wind);
+    out_ground = vec4(flattened(up), float(chart) + 0.96 * fanned_out(), room);
+    out_air = vec4(local.x, local.z, parabola(normalize(world - frame.eye.xyz), up), height);
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// In: a mesh's canopy (SurfaceCanopy). Out: its upper surface, lifted along the normals as high as the wind leaves it (B1), and walls where
+// the grass ends.
+#include "lib/wind.glsl"
+#include "shared/bend.h"
+
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal_in;
+layout(location = 2) in vec3 curve_squares;  // diagonal of the shape operator, in the mesh's space (1/m)
+layout(location = 3) in vec3 curve_products; // its yz, zx, xy
+layout(location = 4) in vec2 chart_lift;     // chart; 2 on top; of a wall 1 at its top, 0 on the ground
+uniform vec4 surface_origin;
+
+out vec3 world;
+out vec3 normal;
+out vec3 squares;
+out vec3 products;
+out vec3 wind;
+out float height;
+out float room; // share of its height that the canopy has over a hollow
+out float on_top; // 1: of the top; a wall's is never above 0
+flat out int chart;
+
+// Most that a surface of this shape may be lifted without a fold (m): not past where the normals of a hollow meet.
+float most_lift() {
+    float sum = curve_squares.x + curve_squares.y + curve_squares.z;
+    float product = curve_squares.x * curve_squares.y + curve_squares.y * curve_squares.z + curve_squares.z * curve_squares.x -
+                    dot(curve_products, curve_products); // of the two curvatures: the third is 0
+    float least = 0.5 * sum - sqrt(max(0.25 * sum * sum - product, 0.0));
+    return 0.35 / max(-least, 1e-6);
+}
+
+void main() {
+    vec3 root = position + surface_origin.xyz;
+    float canopy = frame.patch_grid.w;
+    vec2 level = wind_at(root.xz);
+    normal = normal_in;
+    wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2
+    float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.mean.w).y;
+    height = top * min(chart_lift.y, 1.0);
+    on_top = chart_lift.y - 1.0;
+    room = min(most_lift() / top, 1.0);
+    world = root + normal * (height * room);
+    squares = curve_squares;
+    products = curve_products;
+    chart = int(chart_lift.x + 0.5);
+    gl_Position = frame.clip_from_world * vec4(world, 1.0);
+}
