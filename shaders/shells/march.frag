@@ -163,6 +163,12 @@ float next_entry(View view, float from, float last, float canopy) {
 Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float farthest) {
     Entry next = entry;
     bool over_it = walk.layer >= kMarchLayers;
+    if (over_it && eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
+        Entry drawn = entry_from_above(view, ivec2(gl_FragCoord.xy));
+        if (drawn.distance > entry.distance + walk.s) {
+            return drawn;
+        }
+    }
     next.height = over_it ? path.bend.w : march_height(path, walk.s);
     next.distance = entry.distance + walk.s;
     if (over_it) {

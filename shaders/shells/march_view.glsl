@@ -56,7 +56,8 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
-Entry entry_of(View view, ivec2 pixel) {
+// Where the ray comes through the canopy's upper surface from above.
+Entry entry_from_above(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
     float distance_m = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
     vec4 ground = texelFetch(canopy_ground, pixel, 0);
@@ -64,9 +65,14 @@ Entry entry_of(View view, ivec2 pixel) {
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
     }
-    vec4 air = texelFetch(canopy_air, pixel, 0);
-    bool inside = eye_place.x > 0.5; // the eye stands in the canopy
-    return Entry(inside ? kNear_m : distance_m, inside ? eye_place.y : frame.patch_grid.w, inside ? eye_ground : ground, inside ? eye_air : air);
+    return Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0));
+}
+
+Entry entry_of(View view, ivec2 pixel) {
+    if (eye_place.x > 0.5) { // the eye stands in the canopy
+        return Entry(kNear_m, eye_place.y, eye_ground, eye_air);
+    }
+    return entry_from_above(view, pixel);
 }
 
 MarchPath path_of(View view, Entry entry) {

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "app/options.h"
+#include "render/renderer.h"
 #include "scene/scene.h"
 
 namespace sward::app {
@@ -21,6 +23,13 @@ struct BenchRow {
     Spread ms;
     std::uint64_t bytes = 0; ///< of GPU memory that the variant takes
 };
+
+/// Draws a frame; its milliseconds by pass, "frame" all, and what it counted. Waits for the GPU before and after.
+struct TimedFrame {
+    std::map<std::string, double> ms;
+    render::FrameStats stats;
+};
+[[nodiscard]] TimedFrame timed_frame(render::Renderer& renderer, const render::View& view, const render::FrameSettings& settings);
 
 /// A count or share, beside what the paper has for it.
 struct BenchFigure {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <chrono>
 
+#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +18,18 @@ namespace sward::app {
 Spread spread_of(std::vector<double> samples) {
     std::sort(samples.begin(), samples.end());
     return samples.empty() ? Spread{} : Spread{samples.front(), samples[samples.size() / 2], samples.back()};
+}
+
+TimedFrame timed_frame(render::Renderer& renderer, const render::View& view, const render::FrameSettings& settings) {
+    glFinish();
+    const auto start = std::chrono::steady_clock::now();
+    renderer.draw(view, settings);
+    glFinish();
+    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
+    TimedFrame frame{{{"frame", passed.count()}}, renderer.stats()};
+    for (const render::PassTime& pass : frame.stats.passes)
+        frame.ms[pass.name] += pass.cpu_ms;
+    return frame;
 }
 
 void run_bench(const Options& options) {

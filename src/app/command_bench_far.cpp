@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <chrono>
 #include <cmath>
 #include <map>
-
-#include <epoxy/gl.h>
 
 #include "app/bench.h"
 #include "app/paths.h"
@@ -33,16 +30,9 @@ public:
     /// Milliseconds by pass; "frame": all. The first frame makes caches.
     std::map<std::string, double> draw() {
         view_.time_s += 1.0 / 60;
-        glFinish();
-        const auto start = std::chrono::steady_clock::now();
-        renderer_.draw(view_, settings_);
-        glFinish();
-        const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
-        stats_ = renderer_.stats();
-        std::map<std::string, double> ms = {{"frame", passed.count()}};
-        for (const render::PassTime& pass : stats_.passes)
-            ms[pass.name] += pass.cpu_ms;
-        return ms;
+        TimedFrame frame = timed_frame(renderer_, view_, settings_);
+        stats_ = std::move(frame.stats);
+        return frame.ms;
     }
     [[nodiscard]] const render::FrameStats& stats() const { return stats_; }
     render::FrameSettings& settings() { return settings_; }

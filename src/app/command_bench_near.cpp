@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include "app/bench.h"
@@ -56,15 +54,9 @@ public:
         frame_ += step ? 1 : 0;
         view_.time_s = frame_ * kStep_s;
         settings_.cull = tests;
-        glFinish();
-        const auto start = std::chrono::steady_clock::now();
-        renderer_.draw(view_, settings_);
-        glFinish();
-        const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start;
-        stats_ = renderer_.stats();
-        std::map<std::string, double> ms = {{"frame", passed.count()}};
-        for (const render::PassTime& pass : stats_.passes)
-            ms[pass.name] += pass.cpu_ms;
+        TimedFrame frame = timed_frame(renderer_, view_, settings_);
+        stats_ = std::move(frame.stats);
+        std::map<std::string, double> ms = std::move(frame.ms);
         ms["visibility"] = ms["depth pyramid"] + ms["cull blades"];
         return ms;
     }

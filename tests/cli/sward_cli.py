@@ -141,6 +141,17 @@ def tiny_set():
     return target
 
 
+def temporaries(folder):
+    """Files and folders below a folder that a program is still writing, each with how many entries it has; what goes while we look is not an
+    error, as it is for Path.rglob."""
+    found = {}
+    for place, folders, files in os.walk(folder):
+        if Path(place).name.startswith(".sward-"):
+            found[Path(place)] = len(folders) + len(files)
+        found.update({Path(place, name): 0 for name in files if name.startswith(".sward-")})
+    return found
+
+
 def snapshot(folder):
     """Every name under a folder with what identifies its content."""
     names = {}

@@ -6,14 +6,10 @@ import signal
 import threading
 
 import sward_cli
-from sward_cli import CliCase, SIZE, environment
+from sward_cli import CliCase, SIZE, environment, temporaries
 
 # A preset whose bake lasts long enough to be hit.
 LONG_PRESET = sward_cli.TINY_PRESET.replace("size = 64", "size = 512").replace("variants = 1", "variants = 8")
-
-
-def temporaries(folder):
-    return [path for path in folder.rglob(".sward-*")]
 
 
 class NoGpu(CliCase):
@@ -102,7 +98,7 @@ class Signals(CliCase):
             if not temporaries(cache):
                 break
             pause.wait(0.1)
-        self.assertEqual(temporaries(cache), [])
+        self.assertEqual(temporaries(cache), {})
         self.assertEqual([p for p in (cache / "sward/sets").iterdir() if p.is_dir()], [])
 
     def test_killed_baker(self):
@@ -147,7 +143,7 @@ class Signals(CliCase):
         self.assertFalse((self.dir / "made").exists())
         self.assertEqual(len(temporaries(self.dir)), 1)
         self.assert_done(self.render())
-        self.assertEqual(temporaries(self.dir), [])
+        self.assertEqual(temporaries(self.dir), {})
 
     def test_two_writers(self):
         """Two texgens with one output: one complete winner, and nothing beside it."""
@@ -155,7 +151,7 @@ class Signals(CliCase):
         children = [sward_cli.start("texgen", "tiny.toml", "-o", "made", "--no-preview", "--no-volume",
                                     cwd=self.dir) for _ in range(2)]
         self.assertEqual([self.end_of(child) for child in children], [0, 0])
-        self.assertEqual(temporaries(self.dir), [])
+        self.assertEqual(temporaries(self.dir), {})
         text = sward_cli.SCENE.replace('"set"', '"made"')
         (self.dir / "scene.toml").write_text(text)
         self.assert_done(self.render())

@@ -36,7 +36,7 @@ class FaultCase(CliCase):
         return child.returncode
 
     def temporaries(self):
-        return [path for path in self.out.rglob(".sward-*")]
+        return sward_cli.temporaries(self.out)
 
     def content(self, name="set"):
         return {path.name: path.read_bytes() for path in (self.out / name).iterdir()}
@@ -79,7 +79,7 @@ class Signals(FaultCase):
         self.assertTrue(sward_cli.interrupt(child, signal.SIGINT, self.temporaries))
         self.assertEqual(self.end_of(child), 130)
         self.assertTrue(self.content() == old)
-        self.assertEqual(self.temporaries(), [])
+        self.assertEqual(self.temporaries(), {})
 
     def test_kill_at_any_moment(self):
         """kill -9: the final name is absent, old or complete; what is left over is swept by the next run."""
@@ -94,15 +94,14 @@ class Signals(FaultCase):
                     child.kill()
                 else:  # while the files are written
                     sward_cli.interrupt(child, signal.SIGKILL,
-                                        lambda: any(len(list(t.iterdir())) > step - 3 for t in self.temporaries()
-                                                    if t.is_dir()))
+                                        lambda: any(entries > step - 3 for entries in self.temporaries().values()))
                 ended.add(self.end_of(child))
                 made = self.content()
                 if made != old:
                     self.assert_done(self.texgen("verify", "out/set", "-q"))
         self.assertIn(-9, ended)
         self.assert_done(self.texgen("tiny.toml", "-o", "out/set", "-q", "--no-preview", "--no-volume"))
-        self.assertEqual(self.temporaries(), [])
+        self.assertEqual(self.temporaries(), {})
         self.assertEqual([path.name for path in self.out.iterdir()], ["set"])
 
     def bake_seconds_over(self, old):
