@@ -161,8 +161,9 @@ class Reports(TexgenCase):
                 self.assertAlmostEqual(told["canopy_m"], made["canopy_m"], delta=1e-6)
                 self.assertEqual(told["levels"], [dict(level) for level in made["levels"]])
                 for name, file in told["files"].items():
-                    self.assertEqual(file["unpacked_bytes"],
-                                     made["files"][name].get("unpacked_bytes", made["files"][name]["bytes"]), name)
+                    # How many digits the ranks' bounds have in the GLB's header is not known before blades have ranks.
+                    self.assertAlmostEqual(file["unpacked_bytes"], made["files"][name].get("unpacked_bytes", made["files"][name]["bytes"]),
+                                           delta=128 if name == "blades.glb" else 0, msg=name)
                 self.assertGreater(told["peak_bytes"], 1 << 20)
         text = self.texgen("tiny.toml", "-o", "set", "--dry-run")
         self.assert_done(text)
