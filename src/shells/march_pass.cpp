@@ -26,7 +26,10 @@ void CanopyTargets::bind_textures() const {
 
 namespace {
 
-gl::Program marcher(const char* name, bool aov, bool count, std::vector<std::string> defines) {
+gl::Program marcher(const char* name, bool aov, bool count, bool fine, std::vector<std::string> defines) {
+    if (fine) {
+        defines.emplace_back("FINE_GROUND");
+    }
     if (aov) {
         defines.emplace_back("AOV");
     }
@@ -38,9 +41,10 @@ gl::Program marcher(const char* name, bool aov, bool count, std::vector<std::str
 
 } // namespace
 
-MarchPass::Kinds::Kinds(bool aov, bool count)
-    : columns(marcher("columns", aov, count, {"COLUMNS"})), slabs(marcher("slabs", aov, count, {})),
-      crest_columns(marcher("columns at crests", aov, count, {"COLUMNS", "CREST"})), crest_slabs(marcher("slabs at crests", aov, count, {"CREST"})) {}
+MarchPass::Kinds::Kinds(bool aov, bool count, bool fine)
+    : columns(marcher("columns", aov, count, fine, {"COLUMNS"})), slabs(marcher("slabs", aov, count, fine, {})),
+      crest_columns(marcher("columns at crests", aov, count, fine, {"COLUMNS", "CREST"})),
+      crest_slabs(marcher("slabs at crests", aov, count, fine, {"CREST"})) {}
 
 void MarchPass::Kinds::reload() {
     for (gl::Program* program : {&columns, &slabs, &crest_columns, &crest_slabs}) {
@@ -50,7 +54,7 @@ void MarchPass::Kinds::reload() {
 
 MarchPass::MarchPass(bool aov)
     : canopy_("canopy", {"shells/canopy.vert", "shells/canopy.frag"}), choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}),
-      kinds_(aov, false), aov_(aov), counts_(2 * sizeof(std::uint32_t)) {
+      kinds_(aov, false, false), aov_(aov), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
@@ -98,7 +102,12 @@ void MarchPass::choose(const Inputs& inputs) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
-    triangle(choose_, inputs, 0);
+    if (inputs.fine && !fine_choose_) {
+        fine_choose_ = std::make_unique<gl::Program>("march's kinds, fine ground",
+                                                     std::vector<std::filesystem::path>{"shells/march.vert", "shells/march_choose.frag"},
+                                                     std::vector<std::string>{"FINE_GROUND"});
+    }
+    triangle(inputs.fine ? *fine_choose_ : choose_, inputs, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_GREATER);
 }
@@ -113,13 +122,24 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
     }
 }
 
+const MarchPass::Kinds& MarchPass::kinds_for(const Inputs& inputs) {
+    const std::size_t which = (inputs.count ? 1U : 0U) + (inputs.fine ? 2U : 0U);
+    if (which == 0) {
+        return kinds_;
+    }
+    std::unique_ptr<Kinds>& other = others_[which - 1];
+    if (!other) {
+        other = std::make_unique<Kinds>(aov_, inputs.count, inputs.fine);
+    }
+    return *other;
+}
+
 void MarchPass::execute(const Inputs& inputs) {
     if (inputs.count) {
-        counting_ = counting_ ? std::move(counting_) : std::make_unique<Kinds>(aov_, true);
         counts_.clear_to_zero();
         counts_.bind_storage(BIND_MARCH_COUNTS);
     }
-    const Kinds& kinds = inputs.count ? *counting_ : kinds_;
+    const Kinds& kinds = kinds_for(inputs);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
@@ -140,8 +160,13 @@ void MarchPass::reload() {
     canopy_.reload();
     choose_.reload();
     kinds_.reload();
-    if (counting_) {
-        counting_->reload();
+    if (fine_choose_) {
+        fine_choose_->reload();
+    }
+    for (const auto& other : others_) {
+        if (other) {
+            other->reload();
+        }
     }
 }
 
