@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ground as every tier sees it: the clipmap, blended between levels so that nothing cracks or pops. World xz in.
 #include "lib/frame.glsl"
+#ifdef FINE_GROUND
+#include "lib/posts.glsl"
+#endif
 
 layout(binding = TEX_CLIP_HEIGHT) uniform sampler2DArray clip_height;
 layout(binding = TEX_CLIP_SURFACE) uniform sampler2DArray clip_surface;
@@ -17,13 +20,21 @@ struct ClipPlace {
 
 ClipPlace clip_place(vec2 xz) {
     vec2 from_eye = abs(xz - frame.eye.xz);
-    float cells = max(from_eye.x, from_eye.y) / frame.clip[0].w;
+    float distance_m = max(from_eye.x, from_eye.y);
+#ifdef FINE_GROUND
+    distance_m = detail_reach(distance_m, params.step.y, params.step.z);
+#endif
+    float cells = distance_m / frame.clip[0].w;
     int last = frame.clip_layout.x - 1;
     int level = int(clamp(ceil(log2(max(cells / kBlendEnd, 1e-3))), 0.0, float(last)));
     float own = cells / float(1 << level);
     float blend = level == last ? 0.0 : clamp((own - kBlendStart) / (kBlendEnd - kBlendStart), 0.0, 1.0);
     return ClipPlace(level, blend);
 }
+
+#ifdef FINE_GROUND
+#include "lib/fine_ground.glsl"
+#endif
 
 vec3 clip_uv(vec2 xz, int level) {
     vec4 clip = frame.clip[level];
@@ -33,6 +44,11 @@ vec3 clip_uv(vec2 xz, int level) {
 // Height of the ground, world y.
 float ground_at(vec2 xz) {
     ClipPlace place = clip_place(xz);
+#ifdef FINE_GROUND
+    if (is_fine(xz)) {
+        return fine_height(xz, place);
+    }
+#endif
     float fine = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r;
     float coarse = textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0).r;
     return mix(fine, coarse, place.blend) - frame.grass.w;
@@ -63,6 +79,13 @@ Ground ground_surface(vec2 xz, float width) {
     vec4 s = mix(fine, coarse, place.blend);
     vec2 n = (s.xy * 255.0 - 128.0) / 127.0;
     float density = s.z;
+#ifdef FINE_GROUND
+    if (is_fine(xz)) {
+        s = fine_surface(xz, place);
+        n = s.xy;
+        density = s.z;
+    }
+#endif
     if (frame.clip_layout.w != kMaskNone) {
         float height = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.grass.w;
         float pixel = distance(vec3(xz.x, height, xz.y), frame.eye.xyz) / frame.eye.w;

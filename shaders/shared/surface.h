@@ -14,9 +14,9 @@ SHARED_CONST float kReliefWavelength_m = 64.0f; // the longest
 // What a clipmap level is made from. 64 bytes.
 struct SurfaceParams {
     vec4 grid;   // posts in x, z; spacing x, z (m)
-    vec4 relief; // amplitude (m); unused
+    vec4 relief; // amplitude (m); unused; anchor x, z (m), for drawing
     ivec4 level; // first post i, j of this level's window (world posts), level number, unused
-    vec4 step;   // spacing of this level (m); unused
+    vec4 step;   // spacing of this level (m); for drawing detail_reach's start (m) and zoom; unused
 };
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceParams) == 64);
@@ -66,6 +66,19 @@ SHARED_FN float slope_density(vec3 normal, vec2 xz) {
     float slope = sqrt(max(1.0f - normal.y * normal.y, 0.0f)) / max(normal.y, 1e-3f);
     float patchy = 0.25f * gradient_noise(xz / 23.0f);
     return 1.0f - smoothstep(0.65f, 1.1f, slope + patchy);
+}
+
+// Slow variation of soil and sward, 0..1, for a grid of `spacing` metres.
+SHARED_FN float surface_tint(vec2 xz, float spacing) {
+    return clamp(0.5f + 0.5f * gradient_noise(xz / 310.0f) + 0.35f * gradient_noise(xz / 71.0f) +
+                 (spacing <= 8.0f ? 0.2f * gradient_noise(xz / 19.0f) : 0.0f), 0.0f, 1.0f);
+}
+
+// From how far (m) the ground at a distance (larger of |x|, |z|) is to be seen as: levels go by it. Up to `start`, where blades may stand,
+// by distance alone; from twice that on through a lens that brings it `zoom` times nearer.
+SHARED_FN float detail_reach(float distance_m, float start, float zoom) {
+    float t = clamp(distance_m / max(start, 1e-3f) - 1.0f, 0.0f, 1.0f);
+    return distance_m <= start ? distance_m : t < 1.0f ? mix(start, 2.0f * start / zoom, t) : distance_m / zoom;
 }
 
 SHARED_END

@@ -19,6 +19,11 @@ void main() {
     Ground ground = ground_surface(xz, block.place.z);
     vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
     float height = ground_at(xz);
+#ifdef FINE_GROUND
+    if (is_fine(xz)) {
+        height = fine_vertex(xz, clip_place(xz));
+    }
+#endif
     vec2 wind = wind_at(xz);
     samples[index] = BlockSample(vec4(height, ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint),
                                  vec4(slope, wind), sway_at(vec3(xz.x, height, xz.y), wind));

@@ -1,35 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the posts. Out: one clipmap level's heights above the datum (m). Twin: terrain::Surface::height.
-#include "shared/bindings.h"
-#include "shared/frame.h"
-#include "shared/surface.h"
+// In: the posts. Out: one clipmap level's heights above the datum (m).
+#include "lib/posts.glsl"
 
 layout(local_size_x = CLIP_GROUP, local_size_y = CLIP_GROUP) in;
-layout(std140, binding = BIND_SURFACE) uniform SurfaceBlock { SurfaceParams params; };
-layout(binding = TEX_ELEVATION) uniform sampler2D elevation;
 layout(r32f, binding = 0) uniform writeonly image2D heights;
-
-float post(ivec2 at) {
-    return texelFetch(elevation, clamp(at, ivec2(0), ivec2(params.grid.xy) - 1), 0).r;
-}
-
-float surface_height(vec2 xz) {
-    vec2 posts = params.grid.xy - 1.0;
-    vec2 at = clamp(xz / params.grid.zw + 0.5 * posts, vec2(0.0), posts);
-    vec2 base = floor(at);
-    vec2 f = at - base;
-    ivec2 first = ivec2(base) - 1;
-    vec4 rows;
-    for (int j = 0; j < 4; ++j) {
-        rows[j] = catmull_rom(vec4(post(first + ivec2(0, j)), post(first + ivec2(1, j)), post(first + ivec2(2, j)),
-                                   post(first + ivec2(3, j))), f.x);
-    }
-    return catmull_rom(rows, f.y) + relief_at(xz, params.relief.x, params.step.x);
-}
 
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     // The post in this level's window that wraps onto this texel.
     ivec2 world = params.level.xy + ((texel - params.level.xy) & (kClipCells - 1));
-    imageStore(heights, texel, vec4(surface_height(vec2(world) * params.step.x)));
+    imageStore(heights, texel, vec4(surface_height(vec2(world) * params.step.x, params.step.x)));
 }

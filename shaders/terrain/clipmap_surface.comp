@@ -22,7 +22,6 @@ void main() {
                       height_at(texel + ivec2(0, 1)) - height_at(texel - ivec2(0, 1))) / (2.0 * params.step.x);
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     float density = slope_density(normal, xz);
-    float tint = clamp(0.5 + 0.5 * gradient_noise(xz / 310.0) + 0.35 * gradient_noise(xz / 71.0) +
-                       (params.step.x <= 8.0 ? 0.2 * gradient_noise(xz / 19.0) : 0.0), 0.0, 1.0);
+    float tint = surface_tint(xz, params.step.x);
     imageStore(surfaces, texel, vec4((normal.xz * 127.0 + 128.0) / 255.0, density, tint));
 }

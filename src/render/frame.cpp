@@ -124,8 +124,13 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
     FieldView field;
     {
         const gl::PassScope pass(timers, "select blocks");
+        terrain::Detail detail = shot.detail;
         field.blocks = terrain::visible_blocks(clipmap, surface, terrain::Frustum(constants.clip_from_world), shot.anchor,
-                                               {glm::vec3(constants.eye), world.grass.canopy_m});
+                                               {glm::vec3(constants.eye), world.grass.canopy_m}, detail);
+        field.fine = detail.on();
+        if (field.fine) {
+            clipmap.bind_posts({shot.anchor.x, shot.anchor.z}, detail);
+        }
     }
     if (rasterises(settings)) {
         const gl::PassScope pass(timers, "select far");
@@ -134,7 +139,7 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
                                         mean_bend(constants)});
     }
     const gl::PassScope pass(timers, "block samples");
-    block_samples.execute(field.blocks);
+    block_samples.execute(field.blocks, field.fine);
     return field;
 }
 
@@ -142,7 +147,7 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
     DrawPasses& draw = passes(settings.aov);
     if (settings.terrain) {
         const gl::PassScope pass(timers, "terrain");
-        draw.terrain.execute(static_cast<int>(field.blocks.size()), block_mesh);
+        draw.terrain.execute(static_cast<int>(field.blocks.size()), block_mesh, field.fine);
     }
     if (draws_blades(settings)) {
         build_pyramid(settings);
@@ -167,7 +172,7 @@ void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, c
     }
     const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);
     const shells::MarchPass::Inputs inputs{march_textures, canopy, nullptr, {}, targets.samples(), static_cast<float>(eye.y - surface.height(eye.x, eye.z)),
-                                           settings.count_steps};
+                                           field.fine, settings.count_steps};
     const gl::PassScope pass(timers, "far field");
     targets.bind_resolved();
     march.choose(inputs);

@@ -105,6 +105,8 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
     out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
     fill_bands(out, shot.bands, settings);
+    const double aside = glm::length(glm::dvec2(view.lod_pose.position.x - eye.x, view.lod_pose.position.z - eye.z));
+    shot.detail = terrain::detail_of(view.pose.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover.y) + aside);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
     for (int i = 0; !set.far.empty() && i <= shared::kShareSteps; ++i) {
         const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;

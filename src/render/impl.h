@@ -46,6 +46,7 @@ private:
 /// Blocks of ground in view, and the shells and slices over them.
 struct FieldView {
     std::vector<terrain::VisibleBlock> blocks;
+    bool fine = false; ///< finer than the clipmap
     shells::FarList far;
 };
 
@@ -54,6 +55,7 @@ struct Shot {
     glm::dvec3 anchor{0};
     lod::Bands bands;
     shared::FrameConstants constants{};
+    terrain::Detail detail;
 };
 
 struct Renderer::Impl {

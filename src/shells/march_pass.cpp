@@ -37,24 +37,8 @@ void SurfaceTargets::bind_textures() const {
 
 namespace {
 
-struct Variant {
-    bool aov, surface, count;
-    [[nodiscard]] std::vector<std::string> with(std::vector<std::string> defines) const {
-        if (aov) {
-            defines.emplace_back("AOV");
-        }
-        if (surface) {
-            defines.emplace_back("SURFACE");
-        }
-        if (count) {
-            defines.emplace_back("COUNT");
-        }
-        return defines;
-    }
-};
-
-gl::Program marcher(const char* name, const Variant& variant, std::vector<std::string> defines) {
-    return {name, {"shells/march.vert", "shells/march.frag"}, variant.with(std::move(defines))};
+gl::Program marcher(const char* name, std::vector<std::string> defines) {
+    return {name, {"shells/march.vert", "shells/march.frag"}, std::move(defines)};
 }
 
 std::vector<std::filesystem::path> canopy_stages(bool surface) {
@@ -64,10 +48,26 @@ std::vector<std::filesystem::path> canopy_stages(bool surface) {
 
 } // namespace
 
-MarchPass::Kinds::Kinds(bool aov, bool surface, bool count)
-    : columns(marcher("columns", {aov, surface, count}, {"COLUMNS"})), slabs(marcher("slabs", {aov, surface, count}, {})),
-      crest_columns(marcher("columns at crests", {aov, surface, count}, {"COLUMNS", "CREST"})),
-      crest_slabs(marcher("slabs at crests", {aov, surface, count}, {"CREST"})) {}
+std::vector<std::string> MarchPass::Variant::with(std::vector<std::string> defines) const {
+    if (fine) {
+        defines.emplace_back("FINE_GROUND");
+    }
+    if (aov) {
+        defines.emplace_back("AOV");
+    }
+    if (surface) {
+        defines.emplace_back("SURFACE");
+    }
+    if (count) {
+        defines.emplace_back("COUNT");
+    }
+    return defines;
+}
+
+MarchPass::Kinds::Kinds(const Variant& variant)
+    : columns(marcher("columns", variant.with({"COLUMNS"}))), slabs(marcher("slabs", variant.with({}))),
+      crest_columns(marcher("columns at crests", variant.with({"COLUMNS", "CREST"}))),
+      crest_slabs(marcher("slabs at crests", variant.with({"CREST"}))) {}
 
 void MarchPass::Kinds::reload() {
     for (gl::Program* program : {&columns, &slabs, &crest_columns, &crest_slabs}) {
@@ -77,7 +77,7 @@ void MarchPass::Kinds::reload() {
 
 MarchPass::MarchPass(bool aov, bool surface)
     : canopy_("canopy", canopy_stages(surface)),
-      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, false}.with({})), kinds_(aov, surface, false),
+      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, false, false}.with({})), kinds_({aov, surface, false, false}),
       aov_(aov), surface_(surface), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
@@ -150,7 +150,12 @@ void MarchPass::choose(const Inputs& inputs) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
-    triangle(choose_, inputs, 0);
+    if (inputs.fine && !fine_choose_) {
+        fine_choose_ = std::make_unique<gl::Program>("march's kinds, fine ground",
+                                                     std::vector<std::filesystem::path>{"shells/march.vert", "shells/march_choose.frag"},
+                                                     std::vector<std::string>{"FINE_GROUND"});
+    }
+    triangle(inputs.fine ? *fine_choose_ : choose_, inputs, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_GREATER);
 }
@@ -165,13 +170,24 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
     }
 }
 
+const MarchPass::Kinds& MarchPass::kinds_for(const Inputs& inputs) {
+    const std::size_t which = (inputs.count ? 1U : 0U) + (inputs.fine ? 2U : 0U);
+    if (which == 0) {
+        return kinds_;
+    }
+    std::unique_ptr<Kinds>& other = others_[which - 1];
+    if (!other) {
+        other = std::make_unique<Kinds>(Variant{aov_, surface_, inputs.count, inputs.fine});
+    }
+    return *other;
+}
+
 void MarchPass::execute(const Inputs& inputs) {
     if (inputs.count) {
-        counting_ = counting_ ? std::move(counting_) : std::make_unique<Kinds>(aov_, surface_, true);
         counts_.clear_to_zero();
         counts_.bind_storage(BIND_MARCH_COUNTS);
     }
-    const Kinds& kinds = inputs.count ? *counting_ : kinds_;
+    const Kinds& kinds = kinds_for(inputs);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_EQUAL);
     glDepthMask(GL_FALSE);
@@ -192,8 +208,13 @@ void MarchPass::reload() {
     canopy_.reload();
     choose_.reload();
     kinds_.reload();
-    if (counting_) {
-        counting_->reload();
+    if (fine_choose_) {
+        fine_choose_->reload();
+    }
+    for (const auto& other : others_) {
+        if (other) {
+            other->reload();
+        }
     }
 }
 

@@ -61,6 +61,7 @@ public:
         glm::vec3 origin{0};                     ///< of the mesh's space, anchor-relative
         int samples = 1;        ///< a pixel of the scene has
         float eye_height_m = 0; ///< over the ground
+        bool fine = false;      ///< ground finer than the clipmap: Clipmap::bind_posts came before
         bool count = false;     ///< steps and reads, at the cost of two atomic additions a pixel
     };
     /// Chooses the kinds, into the depth of the framebuffer that is bound. Before: frame constants and clipmap are bound.
@@ -74,17 +75,24 @@ public:
     void reload();
 
 private:
+    /// Of the march's programs. `fine`: ground finer than the clipmap.
+    struct Variant {
+        bool aov, surface, count, fine;
+        [[nodiscard]] std::vector<std::string> with(std::vector<std::string> defines) const;
+    };
     struct Kinds {
-        Kinds(bool aov, bool surface, bool count);
+        explicit Kinds(const Variant& variant);
         gl::Program columns, slabs;             ///< of rays that end in the canopy
         gl::Program crest_columns, crest_slabs; ///< of those that may leave it and come to another
         void reload();
     };
     void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const;
     void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
+    [[nodiscard]] const Kinds& kinds_for(const Inputs& inputs);
     gl::Program canopy_, choose_;
+    std::unique_ptr<gl::Program> fine_choose_; ///< with FINE_GROUND, made when first asked for
     Kinds kinds_;
-    std::unique_ptr<Kinds> counting_; ///< made when first asked for
+    std::array<std::unique_ptr<Kinds>, 3> others_; ///< counting, fine, both: likewise
     bool aov_, surface_;
     gl::Buffer counts_;
     std::uint32_t vertex_array_ = 0;

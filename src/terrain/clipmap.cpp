@@ -125,6 +125,17 @@ void Clipmap::bind() const {
     mask_.bind(TEX_MASK);
 }
 
+void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
+    const scene::Heightfield& posts = surface_.elevation();
+    shared::SurfaceParams params{};
+    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
+    params.relief = {surface_.relief_m(), 0, anchor.x, anchor.y};
+    params.step = {0, detail.start_m, detail.zoom, 0};
+    params_.upload(&params, sizeof(params));
+    params_.bind_uniform(BIND_SURFACE);
+    elevation_.bind(TEX_ELEVATION);
+}
+
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
     frame.clip_layout.x = levels();
     frame.clip_layout.w = mask_mode_;

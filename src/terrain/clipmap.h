@@ -10,6 +10,7 @@
 #include "gl/texture.h"
 #include "scene/heightfield.h"
 #include "shared/frame.h"
+#include "terrain/detail.h"
 #include "terrain/surface.h"
 
 namespace sward::terrain {
@@ -33,6 +34,8 @@ public:
     /// Brings every level's window around the eye (world metres); recomputes the levels that moved.
     void update(glm::dvec2 eye);
     void bind() const;
+    /// For programs with FINE_GROUND, after update(): the posts themselves. `anchor` in world metres.
+    void bind_posts(glm::dvec2 anchor, Detail detail);
     /// Fills clip, clip_layout.x and .w, and mask_place of the frame constants for an anchor (world metres).
     void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
 

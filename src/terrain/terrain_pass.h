@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "shared/frame.h"
 #include "terrain/clipmap.h"
+#include "terrain/detail.h"
 #include "terrain/frustum.h"
 
 namespace sward::terrain {
@@ -23,9 +25,12 @@ struct VisibleBlock {
 };
 
 /// Blocks of every level that may be seen, without the holes that finer levels fill, sorted by distance.
-/// `anchor`: world metres (x, height, z); `eye`: anchor-relative; `canopy_m`: of what stands on the ground.
+/// `anchor`: world metres (x, height, z); `eye`: anchor-relative; `canopy_m`: of what stands on the ground. Through a long lens blocks are
+/// split until they are as fine as `detail` asks; where that would be too many, its zoom is halved.
 [[nodiscard]] std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& surface, const Frustum& frustum,
                                                        glm::dvec3 anchor, glm::vec4 eye_canopy_m);
+[[nodiscard]] std::vector<VisibleBlock> visible_blocks(const Clipmap& clipmap, const Surface& surface, const Frustum& frustum,
+                                                       glm::dvec3 anchor, glm::vec4 eye_canopy_m, Detail& detail);
 
 /// Index buffer of a block's 8 x 8 cells as triangles: terrain and shells draw the same mesh.
 class BlockMesh {
@@ -46,11 +51,13 @@ private:
 class BlockSamples {
 public:
     BlockSamples();
-    void execute(const std::vector<VisibleBlock>& blocks);
-    void reload() { program_.reload(); }
+    /// `fine`: after Clipmap::bind_posts.
+    void execute(const std::vector<VisibleBlock>& blocks, bool fine = false);
+    void reload();
 
 private:
     gl::Program program_;
+    std::unique_ptr<gl::Program> fine_program_; ///< made for the first long lens
     gl::Buffer blocks_, samples_;
 };
 
@@ -58,11 +65,13 @@ private:
 class TerrainPass {
 public:
     explicit TerrainPass(bool aov);
-    void execute(int blocks, const BlockMesh& mesh);
-    void reload() { program_.reload(); }
+    void execute(int blocks, const BlockMesh& mesh, bool fine = false);
+    void reload();
 
 private:
+    bool aov_;
     gl::Program program_;
+    std::unique_ptr<gl::Program> fine_program_;
 };
 
 } // namespace sward::terrain

@@ -121,6 +121,31 @@ class Ground(CliCase):
             depth = self.depth("tele")
             self.assertAlmostEqual(depth, 147, delta=4, msg=fov)
 
+    def test_hills_through_a_long_lens(self):
+        """Hills of 400 m on posts of 20 m, 5.5 km away: the ground stands where the formula says, to about a pixel."""
+        side, eye, pitch = 401, numpy.array([0, 400, 3200]), numpy.radians(-4.2)
+        wave = 2 * numpy.pi / 400
+        place = (numpy.arange(side) - side // 2) * 20
+        posts = 40 * numpy.sin(wave * place[None, :]) * numpy.sin(wave * place[:, None])
+        (self.dir / "height.raw").write_bytes(posts.astype("<f4").tobytes())
+        (self.dir / "height.json").write_text(json.dumps({"width": side, "height": side, "spacing_m": [20, 20]}))
+        text = TERRAIN.replace("height.tif", "height.raw").format(more="", fov=1)
+        text = text.replace("position = [0, 30, 150]", "position = [0, 400, 3200]\npitch_deg = -4.2")
+        (self.dir / "scene.toml").write_text(text)
+        for width, height, grass in ((101, 101, "0"), (160, 90, "1")):
+            depth = self.picture("tele", "depth", f"{width}x{height}", "--density", grass)
+            focal = 0.5 * height / numpy.tan(numpy.radians(0.5))
+            right = (numpy.arange(width) + 0.5 - width / 2)[None, :] / focal
+            up = (height / 2 - numpy.arange(height) - 0.5)[:, None] / focal
+            x = right * depth
+            y = eye[1] + depth * (up * numpy.cos(pitch) + numpy.sin(pitch))
+            z = eye[2] - depth * (numpy.cos(pitch) - up * numpy.sin(pitch))
+            pixels = (y - 40 * numpy.sin(wave * x) * numpy.sin(wave * z)) * focal / depth
+            self.assertGreater(depth.min(), 4000)
+            self.assertLess(depth.max(), 7000)
+            self.assertLess(numpy.sqrt((pixels ** 2).mean()), 0.7)
+            self.assertLess(numpy.abs(pixels).max(), 1.6)
+
     def test_a_strip_stays_unbroken(self):
         """A bare strip of 8 m in a mask of 1 m, seen from 80 m up at 400 to 600 m."""
         geotiff(self.dir / "height.tif", 65, 65, lambda i, j: 0, "f", UTM32, (20, 0, 500000, 0, -20, 5500000))

@@ -235,11 +235,9 @@ std::vector<terrain::VisibleBlock> all_blocks(const SmallWorld& world) {
 
 /// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there
 /// must be no crack.
-TEST_F(Terrain, LevelsMeetWithoutCracks) {
-    SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
-    const auto blocks = all_blocks(world);
+void expect_no_cracks(const std::vector<terrain::VisibleBlock>& blocks, bool fine_ground) {
     terrain::BlockSamples pass;
-    pass.execute(blocks);
+    pass.execute(blocks, fine_ground);
     const auto samples = read_samples(blocks.size());
     std::map<std::tuple<int, long, long>, float> heights; // level, place in centimetres
     const auto key = [](int level, glm::vec2 place) {
@@ -275,6 +273,24 @@ TEST_F(Terrain, LevelsMeetWithoutCracks) {
     }
     EXPECT_GT(corners, 4 * 64);
     EXPECT_GT(middles, 4 * 64);
+}
+
+TEST_F(Terrain, LevelsMeetWithoutCracks) {
+    SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
+    expect_no_cracks(all_blocks(world), false);
+}
+
+/// Through a long lens the same holds, and where it begins the ground is the clipmap's.
+TEST_F(Terrain, FineLevelsMeetWithoutCracks) {
+    SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
+    const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
+    terrain::Detail detail{60, 8};
+    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor, {glm::vec3(world.frame.eye), 0.0f}, detail);
+    EXPECT_GT(blocks.size(), all_blocks(world).size());
+    EXPECT_LT(blocks.size(), 8193u);
+    EXPECT_GE(detail.zoom, 2.0f);
+    world.clipmap.bind_posts({world.anchor.x, world.anchor.z}, detail);
+    expect_no_cracks(blocks, true);
 }
 
 TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
