@@ -22,7 +22,8 @@ SetPlace find_set(const scene::Scene& scene) {
         if (fs::exists(path, ignored))
             return {path, true};
     }
-    throw base::input_error(base::ExitCode::kIo, scene.file, 0, "grass.set", scene.grass.set,
+    const char* const key = scene.terrain.surface.empty() ? "grass.set" : "surface_grass.set";
+    throw base::input_error(base::ExitCode::kIo, scene.file, 0, key, scene.grass.set,
                             fmt::format("a set's directory or a preset, beside the scene or in {}",
                                         base::printable(presets_directory().native(), 200)));
 }

@@ -7,7 +7,7 @@
 
 namespace sward::app {
 
-/// What a scene's grass.set leads to.
+/// What a scene's grass.set, or on a mesh its surface_grass.set, leads to.
 struct SetPlace {
     std::filesystem::path path;
     bool is_preset = false; ///< a texgen preset to bake; else a set's directory
