@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: survivors of the cull pass, states of the living blades. Out: a posed blade (J1, J4 or W3, B3, W6's flutter) for the
-// tessellator.
-#include "lib/blade_place.glsl"
+// In: survivors of the cull pass, states of the living blades. Out: a posed blade for the tessellator.
+#include "lib/blade_pose.glsl"
 #include "lib/sway.glsl"
-#include "shared/blade_pages.h"
-#include "shared/blade_physics.h"
 
 layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
-layout(std430, binding = BIND_BLADE_STATES) readonly buffer States { vec4 states[]; };
-layout(std430, binding = BIND_BLADE_PLACES) readonly buffer Places { uint places[]; }; // in the Morton order
 
 out BladeVertex {
     vec4 root;  // world; w: distance from the place that tier selection measures from
@@ -19,45 +14,16 @@ out BladeVertex {
     vec4 ground; // cosine ground to sun; tint; species; share of the simulated pose
 } blade_out;
 
-// Moves a pose to the blade's own one, where its tile has a page, by what the hand-over leaves of it; returns the share.
-float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 v2) {
-    int page = int(tiles[which.x].place.w) - 1;
-    float share = page < 0 ? 0.0
-                           : simulated_share(distance(root, frame.eye.xyz), frame.simulated.xy) *
-                                 own_pose_share(blade.root.z, distance(root, frame.lod_eye.xyz), frame.pose_band.xy);
-    if (share > 0.0) {
-        vec4 state = states[page * int(frame.simulated.z) + int(places[which.y])];
-        vec3 own1;
-        vec3 own2;
-        simulated_pose(set_blade_shape(blade, frame.patch_grid.w), state, own1, own2);
-        v1 = mix(v1, own1, share);
-        v2 = mix(v2, own2, share);
-    }
-    return share;
-}
-
 void main() {
     uvec2 which = survivors[gl_VertexID];
     BladeRecord blade = blades[which.y];
-    vec3 root = blade_root(which.x, blade);
-    Ground ground = ground_surface(root.xz);
-    float from_eye = distance(root, frame.lod_eye.xyz);
-    float canopy = frame.patch_grid.w;
-    vec3 v1 = blade.v1.xyz;
-    vec3 v2 = blade.v2.xyz;
-    vec2 wind = wind_at(root.xz);
-    float shell = pose_share(blade.root.z, from_eye, frame.pose_band.xy);
-    pose_blade(v1, v2, vec4(blade.shape.y, canopy, frame.wind.mean.w, shell), wind);
-    float alive = live(which, blade, root, v1, v2);
-    // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * flutter_amplitude(length(wind), frame.wind.mean.w);
-    vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
-    flutter_blade(v1, v2, blade.shape.y, flutter.xy, wind);
-    blade_out.sway = sway_at(root, wind);
-    blade_out.root = vec4(root, from_eye);
-    blade_out.v1 = vec4(v1, blade.v1.w);
-    blade_out.v2 = vec4(v2, blade.shape.x + flutter.z);
-    blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, alive);
+    BladePose pose = blade_pose(which, blade);
+    Ground ground = ground_surface(pose.root.xz);
+    blade_out.sway = sway_at(pose.root, pose.wind);
+    blade_out.root = vec4(pose.root, pose.from_eye);
+    blade_out.v1 = vec4(pose.v1, blade.v1.w);
+    blade_out.v2 = vec4(pose.v2, pose.facing);
+    blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / frame.patch_grid.w, blade.root.zw);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, pose.simulated);
     gl_Position = vec4(0.0);
 }

@@ -10,6 +10,7 @@
 #define BIND_WIND_FIELD 3      // WindField: the ambient wind at a window's rim
 #define BIND_MARCH 5           // MarchMedium: the set as the far field knows it
 #define BIND_PHYSICS 4         // BladeStep, WindField: of one step of the blades
+#define BIND_SAMPLES 4         // SampleRound: the pictures that share a choice of blades; beside no physics
 
 // Storage blocks; GL 4.5 promises 0 to 7.
 #define BIND_BLADES 0          // BladeRecord[], the set's
@@ -22,6 +23,11 @@
 #define BIND_MARCH_COUNTS 5    // uint[2]: steps of the march, texels that it read; beside no total
 #define BIND_FAR_INSTANCES 4   // FarInstance[]; never beside the draw commands
 #define BIND_BLOCK_SAMPLES 7   // BlockSample[]: kBlockPosts a block
+
+#define BIND_CHOICE_ITEMS 3    // cull items where the choice by samples reads them, beside states
+#define BIND_CHOICE_MASKS 4    // uint[]: 16 bits a blade of an item, a picture each: does a sample fall on it?
+#define BIND_CHOICE_TOTAL 6    // the cull's total there; beside no terrain blocks
+#define BIND_GATHER_MASKS 5    // the same masks, where draws are made of them
 
 #define BIND_BLADE_STATES 2    // vec4[]: states of living blades, for the drawing; beside no cull items
 #define BIND_BLADE_PLACES 5    // uint[]: place of a blade in its variant's Morton order; beside no total
@@ -100,6 +106,7 @@
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
+#define GATHER_ITEMS 16        // chunks that a workgroup gathers into draws
 #define PYRAMID_GROUP 8        // depth pyramid: 8 x 8 texels
 #define WAKE_GROUP 64          // patches a workgroup that looks which are awake
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup
@@ -118,7 +125,8 @@
 #define CULL_ORIENTATION 3
 #define CULL_DISTANCE 4
 #define CULL_OCCLUSION 5
-#define CULL_COUNTS 6
+#define CULL_SAMPLES 6         // no sample falls on it; of the reference
+#define CULL_COUNTS 7
 
 // Fragment outputs.
 #define OUT_COLOR 0

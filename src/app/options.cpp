@@ -111,7 +111,7 @@ void declare_frame_options(CLI::App& app, Options* o) {
                 o->frame.blades_distance_m = parse_number("--blades-distance", text, kDistance);
             });
     declare(app, "--cull", "LIST",
-            "none, or of frustum,orientation,distance,occlusion: how unseen blades are found; default all but orientation",
+            "none, or of frustum,orientation,distance,occlusion,samples: how unseen blades are found; default all but orientation",
             [=](const std::string& text) { o->frame.cull = parse_cull("--cull", text); });
     app.add_flag("--debug-gl", o->debug_gl,
                  "an OpenGL debug context; any message is a failure (exit 1)");

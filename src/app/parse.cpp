@@ -115,15 +115,15 @@ std::vector<std::string> parse_aovs(std::string_view option, std::string_view te
 }
 
 blades::CullTests parse_cull(std::string_view option, std::string_view text) {
-    blades::CullTests tests{false, false, false, false};
-    const std::array<std::pair<std::string_view, bool*>, 4> known = {
-        {{"frustum", &tests.frustum}, {"orientation", &tests.orientation}, {"distance", &tests.distance}, {"occlusion", &tests.occlusion}}};
+    blades::CullTests tests{false, false, false, false, false};
+    const std::array<std::pair<std::string_view, bool*>, 5> known = {{{"frustum", &tests.frustum}, {"orientation", &tests.orientation}, {"distance", &tests.distance},
+                                                                   {"occlusion", &tests.occlusion}, {"samples", &tests.samples}}};
     if (text == "none")
         return tests;
     for (const std::string_view part : split(text, ',')) {
         const auto found = std::find_if(known.begin(), known.end(), [&](const auto& test) { return test.first == part; });
         if (found == known.end() || *found->second)
-            throw option_error(option, text, "none, or each once, of frustum,orientation,distance,occlusion");
+            throw option_error(option, text, "none, or each once, of frustum,orientation,distance,occlusion,samples");
         *found->second = true;
     }
     return tests;

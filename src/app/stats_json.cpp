@@ -37,7 +37,8 @@ std::string stats_json(const render::FrameStats& stats, const std::string& gpu,
                        {{"frustum", stats.culled_by_frustum},
                         {"orientation", stats.culled_by_orientation},
                         {"distance", stats.culled_by_distance},
-                        {"occlusion", stats.culled_by_occlusion}}}};
+                        {"occlusion", stats.culled_by_occlusion},
+                        {"samples", stats.culled_by_samples}}}};
     json["physics"] = {{"blades", stats.blades_simulated}, {"steps", stats.physics_steps}, {"patches_stepped", stats.patches_stepped}, {"bytes", stats.physics_bytes}};
     json["fragments"] = {{"shells", stats.shell_fragments}, {"slices", stats.slice_fragments}};
     if (settings.count_steps)

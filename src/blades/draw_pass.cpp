@@ -32,15 +32,23 @@ DrawPass::DrawPass(bool aov, bool surface)
 DrawPass::~DrawPass() { glDeleteVertexArrays(1, &vertex_array_); }
 
 void DrawPass::execute(const CullPass& culled, const PhysicsPass* living) {
+    draw(culled.survivors(), culled.commands(), culled.command_count(), living);
+}
+
+void DrawPass::execute(const SampleCull& culled, const PhysicsPass* living) {
+    draw(culled.survivors(), culled.commands(), culled.command_count(), living);
+}
+
+void DrawPass::draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count, const PhysicsPass* living) {
     program_.use();
     glBindVertexArray(vertex_array_);
-    culled.survivors().bind_storage(BIND_SURVIVORS);
+    survivors.bind_storage(BIND_SURVIVORS);
     if (living) {
         living->bind_for_drawing();
     }
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, culled.commands().id());
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands.id());
     glPatchParameteri(GL_PATCH_VERTICES, 1);
-    glMultiDrawArraysIndirect(GL_PATCHES, nullptr, culled.command_count(), 0);
+    glMultiDrawArraysIndirect(GL_PATCHES, nullptr, count, 0);
 }
 
 } // namespace sward::blades

@@ -3,6 +3,7 @@
 
 #include "blades/cull_pass.h"
 #include "blades/physics_pass.h"
+#include "blades/sample_cull.h"
 #include "gl/program.h"
 
 namespace sward::blades {
@@ -17,10 +18,12 @@ public:
     DrawPass& operator=(const DrawPass&) = delete;
     /// `living`: null where no blade lives.
     void execute(const CullPass& culled, const PhysicsPass* living = nullptr);
+    void execute(const SampleCull& culled, const PhysicsPass* living = nullptr);
     [[nodiscard]] const gl::Program& program() const { return program_; }
     void reload() { program_.reload(); }
 
 private:
+    void draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count, const PhysicsPass* living);
     gl::Program program_;
     std::uint32_t vertex_array_ = 0; // no attributes: core profile wants one bound all the same
 };

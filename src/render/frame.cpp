@@ -90,6 +90,10 @@ void Renderer::Impl::simulate(const View& view, const FrameSettings& settings) {
 }
 
 void Renderer::Impl::draw_blades(const FrameSettings& settings, const Shot& shot) {
+    if (samples_decide(settings)) {
+        draw_sampled_blades(settings, shot);
+        return;
+    }
     {
         const gl::PassScope pass(timers, "select blades");
         const auto tiles = blades::select_tiles(world.grass, surface, terrain::Frustum(shot.constants.clip_from_world),
@@ -150,7 +154,9 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
         draw.terrain.execute(static_cast<int>(field.blocks.size()), block_mesh, field.fine);
     }
     if (draws_blades(settings)) {
-        build_pyramid(settings);
+        if (!samples_decide(settings)) {
+            build_pyramid(settings);
+        }
         draw_blades(settings, shot);
     }
     if (rasterises(settings) && settings.shells) {
@@ -181,9 +187,9 @@ void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, c
 }
 
 void Renderer::Impl::draw_picture(const View& view, const FrameSettings& settings, int picture, int pictures) {
-    const int grid = pictures > 1 ? settings.reference_grid : 1;
-    const glm::dvec2 jitter = (glm::dvec2(picture % grid, picture / grid) + 0.5) / static_cast<double>(grid) - 0.5;
-    const Shot shot = make_shot(view, settings, jitter);
+    Shot shot = make_shot(view, settings, jitter_of(settings, picture));
+    shot.picture = picture;
+    shot.pictures = pictures;
     const shared::FrameConstants& constants = shot.constants;
     DrawPasses& draw = passes(settings.aov);
 

@@ -6,6 +6,7 @@
 #include "blades/cull_pass.h"
 #include "blades/depth_pyramid.h"
 #include "blades/draw_pass.h"
+#include "blades/sample_cull.h"
 #include "blades/simulation.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
@@ -56,7 +57,11 @@ struct Shot {
     lod::Bands bands;
     shared::FrameConstants constants{};
     terrain::Detail detail;
+    int picture = 0, pictures = 1; ///< of the frame
 };
+
+/// Of a frame's picture, in pixels: they stand on a grid; one alone is not moved.
+[[nodiscard]] glm::dvec2 jitter_of(const FrameSettings& settings, int picture);
 
 struct Renderer::Impl {
     explicit Impl(World inputs);
@@ -78,6 +83,10 @@ struct Renderer::Impl {
     /// Pages of living blades in and out, and whole steps of the wind and the blades up to the view's time.
     void simulate(const View& view, const FrameSettings& settings);
     void draw_blades(const FrameSettings& settings, const Shot& shot);
+    /// The reference's, culled by samples: does it?
+    [[nodiscard]] bool samples_decide(const FrameSettings& settings) const;
+    void draw_sampled_blades(const FrameSettings& settings, const Shot& shot);
+    void choose_blades(const FrameSettings& settings, const Shot& shot);
     /// The blades that live, made anew for other bounds; null where none does.
     [[nodiscard]] blades::LivingBlades* wake(const FrameSettings& settings);
     [[nodiscard]] const blades::LivingBlades* living(const FrameSettings& settings) const;
@@ -102,6 +111,8 @@ struct Renderer::Impl {
     terrain::BlockSamples block_samples;
     gl::Buffer blade_records, frame_buffer;
     blades::CullPass cull;
+    std::unique_ptr<blades::SampleCull> sample_cull; ///< made for the first frame that wants it
+    int round_begin = 0, round_end = 0;              ///< pictures of the frame that its choice holds for
     blades::DepthPyramid depth_pyramid;
     blades::Colliders colliders;
     std::unique_ptr<blades::Simulation> simulation; ///< of the set's blades; made for the first frame that wants it

@@ -143,12 +143,15 @@ FrameStats Renderer::stats() {
         }
     }
     if (stats.blades_considered > 0) {
-        const auto counts = (impl_->mesh_ground ? impl_->mesh_ground->grass().cull() : impl_->cull).counts();
+        const auto counts = impl_->samples_decide(settings) ? impl_->sample_cull->counts()
+                            : impl_->mesh_ground            ? impl_->mesh_ground->grass().cull().counts()
+                                                            : impl_->cull.counts();
         stats.blades_drawn = counts[CULL_KEPT];
         stats.culled_by_frustum = counts[CULL_FRUSTUM];
         stats.culled_by_orientation = counts[CULL_ORIENTATION];
         stats.culled_by_distance = counts[CULL_DISTANCE];
         stats.culled_by_occlusion = counts[CULL_OCCLUSION];
+        stats.culled_by_samples = counts[CULL_SAMPLES];
     }
     if (const blades::LivingBlades* living = impl_->living(settings)) {
         stats.blades_simulated = living->blades();
@@ -190,7 +193,7 @@ std::vector<std::string> Renderer::reload_shaders() {
             passes->reload(failures);
         }
     }
-    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { i.depth_pyramid.reload(); },
+    for (auto reload : {+[](Impl& i) { i.clipmap.reload(); }, +[](Impl& i) { i.cull.reload(); }, +[](Impl& i) { if (i.sample_cull) { i.sample_cull->reload(); } }, +[](Impl& i) { i.depth_pyramid.reload(); },
                         +[](Impl& i) { if (i.simulation) { i.simulation->pass().reload(); } },
                         +[](Impl& i) { if (i.surface_simulation) { i.surface_simulation->pass().reload(); } },
                         +[](Impl& i) { if (i.mesh_ground) { i.mesh_ground->grass().reload(); } }, +[](Impl& i) { i.block_samples.reload(); }, +[](Impl& i) { i.wind.reload(); i.sources().reload(); }}) {

@@ -71,7 +71,7 @@ struct FrameStats {
     std::vector<PassTime> passes;  ///< in the order of frame.cpp
     std::uint64_t blades_considered = 0; ///< tested by the cull pass
     std::uint64_t blades_drawn = 0;
-    std::uint64_t culled_by_frustum = 0, culled_by_orientation = 0, culled_by_distance = 0, culled_by_occlusion = 0;
+    std::uint64_t culled_by_frustum = 0, culled_by_orientation = 0, culled_by_distance = 0, culled_by_occlusion = 0, culled_by_samples = 0;
     std::uint64_t blades_simulated = 0;  ///< that have a state
     std::uint64_t patches_stepped = 0;   ///< of 128 blades, in all steps since the renderer began
     std::uint64_t physics_steps = 0;     ///< since time 0

@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the figures of the far field against every blade as geometry, for any arguments of `sward`:
 
-    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--away] [--period] [--ring] [-- --far planes]
+    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--grass meadow,lawn] [--away] [--period] [--ring] [-- --far planes]
 
 SWARD_BIN_DIR names the folder of the programs (default build/release/bin). References are kept in `image/far-references` beside it, under the
 hash of scene, view and blades; --fresh makes them again (after a change of how blades are drawn or lit), --pictures DIR writes truth and
 found side by side. The exit code is 1 where a view is over a limit."""
 import argparse
+import itertools
 import shutil
 import sys
 from pathlib import Path
@@ -41,6 +42,7 @@ def main():
     parser.add_argument("--views", default=",".join(far_views.VIEWS))
     parser.add_argument("--slope", default="0", help="degrees, one or more with commas")
     parser.add_argument("--wind", default="0", help="m/s, one or more with commas")
+    parser.add_argument("--grass", default="meadow", help="shipped sets, one or more with commas")
     parser.add_argument("--away", action="store_true", help="the sun stands behind the slope")
     parser.add_argument("--period", action="store_true", help="the spectrum at the patch's period too")
     parser.add_argument("--ring", action="store_true", help="rings on the level field too")
@@ -52,9 +54,9 @@ def main():
         shutil.rmtree(CACHE, ignore_errors=True)
     over = 0
     print(far_views.HEADER)
-    for slope in options.slope.split(","):
+    for grass, slope in itertools.product(options.grass.split(","), options.slope.split(",")):
         for wind in options.wind.split(","):
-            land = far_views.Land(float(slope), float(wind), options.away)
+            land = far_views.Land(float(slope), float(wind), options.away, grass)
             for name in options.views.split(","):
                 view = far_views.VIEWS[name]
                 truth, found = far_views.reference(land, view, CACHE), far_views.far(land, view, options.arguments)

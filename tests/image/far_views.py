@@ -42,7 +42,9 @@ class View:
 
 # From the end of the hand-over on; grazing ones with fewer samples, for they see more blades than all the others.
 VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
-         "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4)}
+         "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4),
+         "nadir60": View(89, 60, fine=4), "at30_60": View(30, 60, fine=4), "at10_60": View(10, 60, fine=4), "at30_120": View(30, 120, fine=4),
+         "at10_120": View(10, 120, 4.4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
 PLAN_METRE_PX = 8
 
@@ -56,9 +58,10 @@ class Land:
     slope_deg: float = 0
     wind_ms: float = 0
     away: bool = False
+    grass: str = field(default="meadow", repr=False)  # a set that ships; references are kept under its scene
 
     def name(self):
-        return f"slope{self.slope_deg:g}_wind{self.wind_ms:g}" + ("_away" if self.away else "")
+        return (("" if self.grass == "meadow" else f"{self.grass}_") + f"slope{self.slope_deg:g}_wind{self.wind_ms:g}" + ("_away" if self.away else ""))
 
     def pose(self, view):
         """Position in metres, yaw and pitch in degrees, of an eye that looks up the slope."""
@@ -80,7 +83,7 @@ class Land:
         keys = ", ".join(f"{{ t = {TIME + i * STEP:.6f}, position = [{p[0]:.9f}, {p[1]:.9f}, {p[2]:.9f}], yaw_deg = {yaw:.9f}, "
                          f"pitch_deg = {pitch:.9f} }}" for i, (p, yaw, pitch) in enumerate(poses))
         return sward_image.scene_text([f"[path.view]\nagl = false\nfov_deg = {fov}\nkeys = [{keys}]\n"], self.wind_ms,
-                                      f"[sun]\nazimuth_deg = {330 if self.away else 150}\nelevation_deg = 40\n")
+                                      f"[sun]\nazimuth_deg = {330 if self.away else 150}\nelevation_deg = 40\n", self.grass)
 
     def write(self, folder, fov, poses):
         side, spacing = 33, 16.0
@@ -152,9 +155,9 @@ def reference_arguments(eye):
 def reference(land, view, cache=None):
     """Every blade as geometry, as two renders of independent noise. `cache`: a folder in which it is kept, under the hash of view, scene and
     blades; not of the program or the shaders."""
-    blades, poses = sward_image.meadow_set() / "blades.glb", land.poses(view)
+    blades, poses = sward_image.shipped_set(land.grass) / "blades.glb", land.poses(view)
     arguments = reference_arguments(poses[0][0])
-    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{sward_image.PRESET.read_text()}".encode() + blades.read_bytes()).hexdigest()[:20]
+    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{(sward_image.PRESETS / (land.grass + ".toml")).read_text()}".encode() + blades.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
         with np.load(path) as kept:

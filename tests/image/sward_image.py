@@ -18,21 +18,21 @@ import sward_cli  # noqa: E402  (the programs' tests know how to run them)
 from metrics import NoPicture, check_picture  # noqa: E402
 
 WORK = sward_cli.BIN.parent / "image"  # the baked set, which outlives one test
-PRESET = sward_cli.SOURCE / "texgen/presets/meadow.toml"
+PRESETS = sward_cli.SOURCE / "texgen/presets"
 TIERS = ("ground", "blade", "grouped blade", "shell", "x-slice", "z-slice", "object", "sky")
 main = sward_cli.main
 
 
-def meadow_set():
-    """The shipped meadow without its extras, baked once for all tests and again after texgen or the preset changed."""
+def shipped_set(name="meadow"):
+    """A shipped set without its extras, baked once for all tests and again after texgen or the preset changed."""
     WORK.mkdir(parents=True, exist_ok=True)
-    target, stamp = WORK / "meadow", WORK / "meadow.stamp"
+    preset, target, stamp = PRESETS / f"{name}.toml", WORK / name, WORK / f"{name}.stamp"
     with open(WORK / "set.lock", "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        now = f"{(sward_cli.BIN / 'texgen').stat().st_mtime_ns} {PRESET.read_text()}"
+        now = f"{(sward_cli.BIN / 'texgen').stat().st_mtime_ns} {preset.read_text()}"
         if not target.exists() or not stamp.exists() or stamp.read_text() != now:
             stamp.unlink(missing_ok=True)
-            result = sward_cli.run("texgen", PRESET, "-o", target, "-q", "--no-volume", "--no-preview", timeout=240)
+            result = sward_cli.run("texgen", preset, "-o", target, "-q", "--no-volume", "--no-preview", timeout=900)
             assert result.code == 0, result.err
             stamp.write_text(now)
     return target
@@ -48,8 +48,8 @@ def camera(name, position, pitch_deg, fov_deg, yaw_deg=0):
             f"fov_deg = {fov_deg}\n")
 
 
-def scene_text(cameras, wind_ms=4, extra=""):
-    return (f'[terrain]\nelevation = "flat.raw"\ndetail_m = 0\n[grass]\nset = "{meadow_set()}"\n'
+def scene_text(cameras, wind_ms=4, extra="", grass="meadow"):
+    return (f'[terrain]\nelevation = "flat.raw"\ndetail_m = 0\n[grass]\nset = "{shipped_set(grass)}"\n'
             f"[wind]\nspeed_ms = {wind_ms}\n{extra}" + "".join(cameras))
 
 
