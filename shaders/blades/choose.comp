@@ -20,7 +20,7 @@ shared uint counts[CULL_COUNTS];
 
 const uint kGone = 0xffffffffu; // the blade does not stand here
 const uint kOutside = 0xfffffffeu;
-const float kSnap_px = 1.0 / 128.0; // rasterisers put vertices on a grid of 1/256 pixel, or finer
+const float kSnap_px = 1.0 / 256.0; // rasterisers put vertices on a grid of so much: 0.71 of half of it away, and what rounding adds
 
 // A piece of blade in the picture: all of it lies within `radius` of the line from a to b (pixels).
 struct Capsule {

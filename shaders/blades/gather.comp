@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: the masks that choose.comp made, a picture. Out: the picture's blades of each GATHER_ITEMS chunks in their order, and draw commands
-// of CULL_GROUP blades at most.
+// of CULL_GROUP blades at most. One lane does all of that: sums over a workgroup cost more, in software by far.
 #include "shared/bindings.h"
 #include "shared/frame.h"
 
-layout(local_size_x = CULL_GROUP) in;
+layout(local_size_x = GATHER_GROUP) in;
 layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
 layout(std430, binding = BIND_GATHER_MASKS) readonly buffer Masks { uint masks[]; };
 layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
@@ -14,39 +14,28 @@ uniform int end_item;
 uniform int first_mask; // item whose masks lie first
 uniform int picture;    // of the round
 
-shared uint sums[CULL_GROUP];
-
-const int kWords = GATHER_ITEMS / 2; // a lane's, of two blades each
-
 void main() {
-    int lane = int(gl_LocalInvocationID.x);
-    int group = int(gl_WorkGroupID.x);
-    int first_word = lane * kWords; // of the group's
-    int item = first_item + group * GATHER_ITEMS + first_word / (CULL_GROUP / 2);
-    int in_item = first_word % (CULL_GROUP / 2);
-    uint bits = 0u; // a blade each
-    if (item < end_item) {
-        for (int word = 0; word < kWords; ++word) {
-            uint mask = masks[(item - first_mask) * (CULL_GROUP / 2) + in_item + word] >> picture;
-            bits |= ((mask & 1u) | (mask >> 15 & 2u)) << (2 * word);
+    int lane = int(gl_GlobalInvocationID.x);
+    int begin = first_item + lane * GATHER_ITEMS;
+    int end = min(begin + GATHER_ITEMS, end_item);
+    if (begin >= end) {
+        return;
+    }
+    int first = lane * GATHER_ITEMS * CULL_GROUP;
+    int place = first;
+    uint both = 0x10001u << picture;
+    for (int item = begin; item < end; ++item) {
+        int words = (item - first_mask) * (CULL_GROUP / 2); // of two blades each
+        uvec2 which = items[item];
+        for (int word = 0; word < CULL_GROUP / 2; ++word) {
+            for (uint bits = masks[words + word] & both; bits != 0u; bits &= bits - 1u) {
+                survivors[place] = which + uvec2(0u, uint(2 * word + (findLSB(bits) >> 4)));
+                ++place;
+            }
         }
     }
-    sums[lane] = uint(bitCount(bits));
-    barrier();
-    for (int step = 1; step < CULL_GROUP; step *= 2) { // inclusive prefix sums
-        uint before = lane >= step ? sums[lane - step] : 0u;
-        barrier();
-        sums[lane] += before;
-        barrier();
-    }
-    int first = group * GATHER_ITEMS * CULL_GROUP;
-    int place = first + int(sums[lane]) - bitCount(bits);
-    for (; bits != 0u; bits &= bits - 1u) {
-        survivors[place] = uvec2(items[item].x, items[item].y + uint(2 * in_item + findLSB(bits)));
-        ++place;
-    }
-    if (lane < GATHER_ITEMS) {
-        int count = clamp(int(sums[CULL_GROUP - 1]) - lane * CULL_GROUP, 0, CULL_GROUP);
-        commands[group * GATHER_ITEMS + lane] = DrawCommand(uint(count), 1u, uint(first + lane * CULL_GROUP), 0u);
+    for (int command = 0; command < end - begin; ++command) {
+        int count = clamp(place - first - command * CULL_GROUP, 0, CULL_GROUP);
+        commands[lane * GATHER_ITEMS + command] = DrawCommand(uint(count), 1u, uint(first + command * CULL_GROUP), 0u);
     }
 }

@@ -106,7 +106,8 @@
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
-#define GATHER_ITEMS 16        // chunks that a workgroup gathers into draws
+#define GATHER_ITEMS 16        // chunks that a lane gathers into draws
+#define GATHER_GROUP 8         // lanes a workgroup of it
 #define PYRAMID_GROUP 8        // depth pyramid: 8 x 8 texels
 #define WAKE_GROUP 64          // patches a workgroup that looks which are awake
 #define SAMPLE_GROUP 64        // block samples: vertices a workgroup

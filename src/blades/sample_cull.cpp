@@ -11,7 +11,7 @@ namespace sward::blades {
 namespace {
 
 constexpr std::size_t kMostGroups = 65535; // that GL promises a dispatch
-static_assert(SampleCull::kBatch % GATHER_ITEMS == 0 && CULL_GROUP % GATHER_ITEMS == 0);
+static_assert(SampleCull::kBatch % (GATHER_ITEMS * GATHER_GROUP) == 0);
 
 } // namespace
 
@@ -78,9 +78,9 @@ void SampleCull::gather(std::size_t batch, int picture, const PhysicsPass* livin
     gather_.set("end_item", static_cast<int>(end));
     gather_.set("first_mask", static_cast<int>(first_mask_));
     gather_.set("picture", picture);
-    const std::size_t groups = (end - first + GATHER_ITEMS - 1) / GATHER_ITEMS;
-    command_count_ = static_cast<int>(groups * GATHER_ITEMS);
-    glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
+    constexpr std::size_t kGroupItems = GATHER_ITEMS * GATHER_GROUP;
+    command_count_ = static_cast<int>(end - first);
+    glDispatchCompute(static_cast<GLuint>((end - first + kGroupItems - 1) / kGroupItems), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
