@@ -20,13 +20,13 @@ shared uint counts[CULL_COUNTS];
 
 const uint kGone = 0xffffffffu; // the blade does not stand here
 const uint kOutside = 0xfffffffeu;
-const float kSnap_px = 1.0 / 256.0; // rasterisers put vertices on a grid of so much: 0.71 of half of it away, and what rounding adds
+const float kSnap_px = 1.0 / 480.0; // rasterisers put vertices on a grid of 1/256 pixel: half of it away, and what rounding adds
 
-// A piece of blade in the picture: all of it lies within `radius` of the line from a to b (pixels).
+// A piece of blade in the picture: all of it lies within `radius`, to the sides and up and down, of the line from a to b (pixels).
 struct Capsule {
     vec2 a;
     vec2 b;
-    float radius;
+    vec2 radius;
 };
 
 uint all_pictures() { return (1u << round.counts.x) - 1u; }
@@ -52,14 +52,14 @@ bool falls_on(Capsule piece, vec2 place) {
         float t1 = 1.0;
         if (per_row != 0.0) {
             float middle = (row + place.y - piece.a.y) * per_row;
-            float reach = piece.radius * abs(per_row);
+            float reach = piece.radius.y * abs(per_row);
             t0 = clamp(middle - reach, 0.0, 1.0);
             t1 = clamp(middle + reach, 0.0, 1.0);
         }
         float x0 = piece.a.x + t0 * way.x;
         float x1 = piece.a.x + t1 * way.x;
-        float left = min(x0, x1) - piece.radius - place.x;
-        float right = max(x0, x1) + piece.radius - place.x;
+        float left = min(x0, x1) - piece.radius.x - place.x;
+        float right = max(x0, x1) + piece.radius.x - place.x;
         found = max(ceil(left), 0.0) <= min(right, last.x);
     }
     return found;
@@ -81,6 +81,19 @@ float reach_of(float from, float to, vec4 outline) {
     float stalk = outline.y * (1.0 - pow(from, outline.x));
     float head = outline.z < 1.0 && to > outline.z ? 1.0 : 0.0;
     return max(max(stalk, head), 0.5 * (1.0 - from)); // the fold stands out by the last
+}
+
+// How far it takes a point to the sides, up or down to move it by `way` or by its opposite (pixels).
+vec2 extent(vec4 clip, vec3 way) {
+    vec4 moved = frame.clip_from_world * vec4(way, 0.0);
+    return abs(moved.xy - clip.xy / clip.w * moved.w) / (clip.w - abs(moved.w)) * 0.5 * vec2(frame.clip_layout.yz);
+}
+
+// Of a blade's rims and of its fold at a station, whose vertices these are.
+vec2 station_extent(vec4 clip, float v, float width, BladePose pose, vec4 outline) {
+    vec3 across = blade_width_direction(pose.facing);
+    vec3 normal = normalize(cross(blade_tangent(pose.v1, pose.v2, v), across));
+    return max(extent(clip, across * (width * blade_width_at(v, outline))), extent(clip, normal * (width * 0.5 * (1.0 - v))));
 }
 
 // The pictures that a sample of may fall on the blade as blade.tesc and blade.tese draw it.
@@ -106,6 +119,7 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
     float before = 0.0;
     vec4 clip = root;
     vec2 place = pixel_of(root);
+    vec2 ahead = station_extent(root, 0.0, width, pose, outline);
     for (int k = 1; k <= pieces; ++k) {
         float v = blade_station(float(k) / float(pieces), outline);
         vec4 next = root + 2.0 * v * (1.0 - v) * clip1 + v * v * clip2;
@@ -113,7 +127,10 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
         float radius = width * reach_of(before, v, outline) + bulge * (v - before) * (v - before);
         vec2 aside = max(abs(place - 0.5 * vec2(frame.clip_layout.yz)), abs(next_place - 0.5 * vec2(frame.clip_layout.yz))) / frame.eye.w;
         float per_metre = frame.eye.w * sqrt(1.0 + dot(aside, aside)) / max(min(clip.w, next.w) - radius, kNear_m);
-        mask = pictures_of(Capsule(place, next_place, radius * per_metre + kSnap_px), mask);
+        vec2 next_ahead = station_extent(next, v, width, pose, outline);
+        vec2 reach = head ? vec2(radius * per_metre) : max(ahead, next_ahead);
+        mask = pictures_of(Capsule(place, next_place, reach + kSnap_px), mask);
+        ahead = next_ahead;
         before = v;
         clip = next;
         place = next_place;

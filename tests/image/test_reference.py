@@ -20,7 +20,7 @@ def thin_blades(target):
     shutil.copytree(sward_cli.SOURCE / "shaders", target)
     source = target / "blades/choose.comp"
     text = source.read_text()
-    changed = text.replace("radius * per_metre + kSnap_px", "0.25 * radius * per_metre", 1)
+    changed = text.replace("reach + kSnap_px", "0.25 * reach", 1)
     assert changed != text, "choose.comp has no radius to change"
     source.write_text(changed)
     return target
