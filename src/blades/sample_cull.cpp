@@ -31,7 +31,7 @@ void SampleCull::upload(const TileList& list, std::span<const glm::vec2> samples
     shared::SampleRound round{};
     round.counts = {static_cast<int>(jitters.size()), static_cast<int>(samples.size()), 0, 0};
     for (std::size_t i = 0; i < jitters.size() * samples.size(); ++i) { // what moves the picture one way moves its samples over the first one the other
-        round.places[i] = glm::vec4(glm::fract(samples[i % samples.size()] + jitters[i / samples.size()]), 0, 0);
+        round.places[i] = glm::vec4(samples[i % samples.size()] + jitters[i / samples.size()], 0, 0);
     }
     round_.upload(&round, sizeof(round));
     if (!keep_total) {

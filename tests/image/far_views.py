@@ -157,7 +157,8 @@ def reference(land, view, cache=None):
     blades; not of the program or the shaders."""
     blades, poses = sward_image.shipped_set(land.grass) / "blades.glb", land.poses(view)
     arguments = reference_arguments(poses[0][0])
-    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{(sward_image.PRESETS / (land.grass + ".toml")).read_text()}".encode() + blades.read_bytes()).hexdigest()[:20]
+    preset = (sward_image.PRESETS / f"{land.grass}.toml").read_text()
+    key = hashlib.sha256(f"{land}{view}{land.scene(view.fov, poses)}{arguments}{ROWS}x{COLUMNS}{preset}".encode() + blades.read_bytes()).hexdigest()[:20]
     path = cache and Path(cache) / f"{key}.npz"
     if path and path.exists():
         with np.load(path) as kept:
