@@ -96,6 +96,7 @@
 #define TEX_SECOND_DEPTH 22    // of a mesh's canopy, likewise: where a ray that has left it comes to another part of it
 #define TEX_SECOND_GROUND 23
 #define TEX_SECOND_AIR 24
+#define TEX_CANOPY_SAMPLES 27   // depth of the canopy's upper surface, a value a sample of the scene
 #define TEX_CANOPY_EXIT 25     // depth of the canopy's surface seen from within: where a ray leaves it
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 

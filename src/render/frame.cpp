@@ -167,7 +167,7 @@ void Renderer::Impl::draw_far(const FrameSettings& settings, const Shot& shot, c
     shells::MarchPass& march = passes(settings.aov).march;
     {
         const gl::PassScope pass(timers, "canopy");
-        canopy.require(settings.width, settings.height);
+        canopy.require(settings.width, settings.height, targets.samples());
         march.draw_canopy(canopy, static_cast<int>(field.blocks.size()), block_mesh);
     }
     const glm::dvec3 eye = shot.anchor + glm::dvec3(shot.constants.eye);

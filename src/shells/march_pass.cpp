@@ -7,21 +7,43 @@
 
 namespace sward::shells {
 
-void CanopyTargets::require(int width, int height) {
-    if (depth_.id() && depth_.shape().width == width && depth_.shape().height == height) {
+void CanopyTargets::require(int width, int height, int samples) {
+    const gl::TextureShape& now = depth_.shape();
+    if (depth_.id() && now.width == width && now.height == height && sample_depth_.shape().samples == samples) {
         return;
     }
     surface_ = gl::Framebuffer();
+    samples_ = gl::Framebuffer();
     depth_ = gl::Texture(GL_DEPTH_COMPONENT32F, {width, height});
     ground_ = gl::Texture(GL_RGBA16F, {width, height});
     air_ = gl::Texture(GL_RGBA16F, {width, height});
     surface_ = gl::Framebuffer({&ground_, &air_}, &depth_);
+    if (samples > 0) {
+        sample_depth_ = gl::Texture(GL_DEPTH_COMPONENT32F, {width, height, 0, 1, samples});
+        samples_ = gl::Framebuffer({}, &sample_depth_);
+        find_places(samples);
+    }
+}
+
+void CanopyTargets::find_places(int samples) {
+    samples_.bind(depth_.shape().width, depth_.shape().height);
+    for (int i = 0; i < 4; ++i) {
+        float at[2] = {0.5f, 0.5f};
+        if (samples > 1) {
+            glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i * samples / 4), at);
+        }
+        places_[0][i] = at[0];
+        places_[1][i] = at[1];
+    }
 }
 
 void CanopyTargets::bind_textures(std::uint32_t first) const {
     depth_.bind(first);
     ground_.bind(first + TEX_CANOPY_GROUND - TEX_CANOPY_DEPTH);
     air_.bind(first + TEX_CANOPY_AIR - TEX_CANOPY_DEPTH);
+    if (sample_depth_.id()) {
+        sample_depth_.bind(TEX_CANOPY_SAMPLES);
+    }
 }
 
 void SurfaceTargets::require(int width, int height) {
@@ -76,7 +98,7 @@ void MarchPass::Kinds::reload() {
 }
 
 MarchPass::MarchPass(bool aov, bool surface)
-    : canopy_("canopy", canopy_stages(surface)),
+    : canopy_("canopy", canopy_stages(surface)), canopy_samples_("canopy's samples", {"shells/canopy.vert"}),
       choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, false, false}.with({})), kinds_({aov, surface, false, false}),
       aov_(aov), surface_(surface), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
@@ -109,6 +131,10 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     glEnable(GL_CULL_FACE);
     canopy_.use();
     mesh.draw(blocks);
+    targets.bind_samples_for_drawing();
+    glClearBufferfv(GL_DEPTH, 0, kFar);
+    canopy_samples_.use();
+    mesh.draw(blocks);
     glDisable(GL_CULL_FACE);
 }
 
@@ -134,6 +160,9 @@ void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy&
 
 void MarchPass::triangle(const gl::Program& program, const Inputs& inputs, float plane) const {
     program.use();
+    program.set("samples", inputs.samples);
+    program.set("sample_x", inputs.canopy.places()[0]);
+    program.set("sample_y", inputs.canopy.places()[1]);
     program.set("eye_height", inputs.eye_height_m);
     program.set("plane", plane);
     program.set("surface_origin", glm::vec4(inputs.origin, 0));
@@ -164,7 +193,6 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
     inputs.textures.bind_kind(kind);
     for (const gl::Program* program : {&plain, &crest}) {
         program->use();
-        program->set("samples", inputs.samples);
         program->set("kind", kind);
         triangle(*program, inputs, shared::kind_depth(kind, program == &crest));
     }
@@ -206,6 +234,7 @@ void MarchPass::execute(const Inputs& inputs) {
 
 void MarchPass::reload() {
     canopy_.reload();
+    canopy_samples_.reload();
     choose_.reload();
     kinds_.reload();
     if (fine_choose_) {
