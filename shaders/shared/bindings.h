@@ -92,7 +92,7 @@
 #define TEX_CANOPY_DEPTH 19    // depth of the canopy's upper surface
 #define TEX_CANOPY_GROUND 20   // RGBA16F: slope of the ground under it, density, tint
 #define TEX_CANOPY_AIR 21      // RGBA16F: wind, canopy_sway
-#define TEX_MARCH_LIGHT 26     // R16F array: factors on the march's light by view azimuth, elevation; wind
+#define TEX_MARCH_LIGHT 26     // RGBA16F: factors on the march's light by view azimuth, elevation; a channel a wind
 #define TEX_SECOND_DEPTH 22    // of a mesh's canopy, likewise: where a ray that has left it comes to another part of it
 #define TEX_SECOND_GROUND 23
 #define TEX_SECOND_AIR 24

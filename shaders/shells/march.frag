@@ -13,13 +13,13 @@
 layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities;
 layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres;
 layout(binding = TEX_MARCH_CORRECTION) uniform sampler2DArray correction;
-layout(binding = TEX_MARCH_LIGHT) uniform sampler2DArray light_factors;
+layout(binding = TEX_MARCH_LIGHT) uniform sampler2D light_factors;
 uniform int kind;
 in vec2 ndc;
 #ifdef COUNT
 layout(early_fragment_tests) in; // a shader that writes to memory would run for pixels of other kinds too
 layout(std430, binding = BIND_MARCH_COUNTS) buffer Counts { uint all_steps; uint all_reads; };
-const int kReadsAPixel = 17; // choice and march: canopy 3 each, depths 4, correction 1, factors on light 2, colours 4
+const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, depths 4, colours 4, correction 1; factors on light are a stretch's
 int steps_taken = 0, texels_read = kReadsAPixel;
 #endif
 
@@ -27,6 +27,7 @@ const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
 const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
 const float kBeside = 1e-3;        // of the distance: what is drawn of the ground may be so far from it (m a metre)
+const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent (no pixel differs by more than 3/255)
 const float kOtherDensity = 0.4;  // of the correction's second factors
 
 // What the march has gathered.
@@ -56,9 +57,9 @@ float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     float azimuth = atan(eye.x * sun.y - eye.y * sun.x, dot(eye, sun)) / (2.0 * kPi);
     vec2 size = vec2(textureSize(light_factors, 0));
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
-    float gust = far_wind_place(frame.wind, wind);
-    float calmer = min(floor(gust), float(kFarWinds - 2));
-    return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).r, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).r, gust - calmer);
+    float gust = far_wind_place(frame.wind, wind); // 0..2: one channel for each wind
+    vec3 winds = textureLod(light_factors, uv, 0.0).rgb;
+    return gust < 1.0 ? mix(winds.r, winds.g, gust) : mix(winds.g, winds.b, gust - 1.0);
 }
 
 vec3 texel_place(MarchPlan plan, MarchStep taken) {
@@ -67,13 +68,19 @@ vec3 texel_place(MarchPlan plan, MarchStep taken) {
     return march_texel(plan, taken, vec3(place, float(variant)));
 }
 
-// Mean tangent of the blades at a step, as the wind turns them: read where a pixel tells blades apart, else the layer's.
-vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float mip) {
-    vec4 texel = vec4(0.0);
-    if (taken.mip < kFibresTo) {
-        texel = textureLod(fibres, uv, mip);
+// Are a step's blades seen well enough to be told apart?
+bool shows_fibres(MarchStep taken, float shown) {
+    return taken.mip < kFibresTo && shown > kLeastShown;
+}
+
+// Mean tangent of the blades at a step, as the wind turns them: read where they are told apart, else the layer's.
+vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float shown) {
+    vec3 mean = vec3(0.0, medium.layers[taken.layer].x, 0.0);
+    if (shows_fibres(taken, shown)) {
+        vec4 texel = textureLod(fibres, uv, taken.mip - march_base(kind));
+        mean = march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0));
     }
-    return march_turned(path, taken.rest.y, march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0)));
+    return march_turned(path, taken.rest.y, mean);
 }
 
 // Share of the blades there that the near tier leaves.
@@ -110,8 +117,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last && mean_of(seen.through) > kMarchEnd; ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         vec3 uv = texel_place(plan, taken);
-        float mip = taken.mip - march_base(kind);
-        vec4 texel = textureLod(densities, uv, mip);
+        vec4 texel = textureLod(densities, uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
@@ -121,19 +127,23 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #ifdef COLUMNS
         albedo *= march_tint(taken.layer, steepness);
 #endif
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, mip), taken.rest.y / frame.patch_grid.w, mean_of(lost)));
+        float shown = mean_of(lost);
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, shown), taken.rest.y / frame.patch_grid.w, shown));
         float before = mean_of(seen.through);
         seen.through -= lost;
         seen.half_way = before > 0.5 && mean_of(seen.through) <= 0.5 ? middle : seen.half_way;
 #ifdef COUNT
         ++steps_taken;
-        texels_read += taken.mip < kFibresTo ? 2 : 1;
+        texels_read += shows_fibres(taken, shown) ? 2 : 1;
 #endif
     }
     vec3 to_eye = to_eye_at(entry, view);
     float level = length(to_eye.xz);
     float fall = max(-path.height.y, 0.0);
     march_stand(seen.grass, light, MarchGround(atan(fall, level) * (180.0 / kPi), rise_at(entry, view), slope), to_eye);
+#ifdef COUNT
+    ++texels_read;
+#endif
     radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(entry.ground.w) *
                light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
     return walk;
@@ -235,6 +245,9 @@ void write_pixel(ivec2 pixel, vec3 radiance, vec4 through) {
     float left = mean_of(through);
     if (left <= kMarchEnd) { // what a march to the end would still have found looks as what it has
         out_color = vec4(radiance / (1.0 - left), 1.0);
+#ifdef COUNT
+        texels_read -= 4;
+#endif
         return;
     }
     out_color = vec4(radiance, 1.0 - left);

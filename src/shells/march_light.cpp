@@ -123,17 +123,20 @@ void MarchLight::update(const shared::Light& light, const shared::WindField& win
     }
     light_ = light;
     wind_ = wind.mean;
-    std::vector<float> texels;
+    static_assert(shared::kFarWinds < 4, "a channel each");
+    std::vector<glm::vec4> texels(static_cast<std::size_t>(kAzimuths) * kElevations, glm::vec4(0));
     for (int n = 0; n < shared::kFarWinds; ++n) {
         const std::vector<float> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
-        texels.insert(texels.end(), one.begin(), one.end());
+        for (std::size_t i = 0; i < texels.size(); ++i) {
+            texels[i][n] = one[i];
+        }
     }
     if (!table_.id()) {
-        table_ = gl::Texture(GL_R16F, {kAzimuths, kElevations, shared::kFarWinds});
+        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations});
         table_.set_filter(GL_LINEAR, GL_LINEAR);
         table_.set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
     }
-    table_.upload(0, GL_RED, GL_FLOAT, texels.data());
+    table_.upload(0, GL_RGBA, GL_FLOAT, texels.data());
 }
 
 void MarchLight::bind() const { table_.bind(TEX_MARCH_LIGHT); }

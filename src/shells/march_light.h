@@ -28,7 +28,7 @@ private:
 };
 
 /// What the march's light is multiplied by, so that its mean is that of rays through the blades (the set's far light): of many blades shading knows
-/// second moments alone. R16F, kAzimuths x kElevations, a layer for each of shared::kFarWinds winds. Columns: angle from the
+/// second moments alone. RGBA16F, kAzimuths x kElevations, a channel for each of shared::kFarWinds winds. Columns: angle from the
 /// direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1.
 class MarchLight {
 public:
