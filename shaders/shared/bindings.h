@@ -9,6 +9,7 @@
 #define BIND_WIND_GRID 2       // WindGrid: the fluid that the wind passes work on
 #define BIND_WIND_FIELD 3      // WindField: the ambient wind at a window's rim
 #define BIND_MARCH 5           // MarchMedium: the set as the far field knows it
+#define BIND_FAR_SHARES 6      // FarShares: of a raster scheme
 #define BIND_PHYSICS 4         // BladeStep, WindField: of one step of the blades
 
 // Storage blocks; GL 4.5 promises 0 to 7.

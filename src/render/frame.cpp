@@ -6,6 +6,7 @@
 #include "shared/bend.h"
 #include "shared/bindings.h"
 #include "shells/far_instances.h"
+#include "shells/far_shares.h"
 
 namespace sward::render {
 
@@ -35,7 +36,7 @@ void set_gl_state() {
 bool draws_blades(const FrameSettings& settings) { return settings.blades && settings.tiers != Tiers::kShells; }
 bool draws_far(const FrameSettings& settings) { return settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells; }
 bool marches(const FrameSettings& settings) { return draws_far(settings) && settings.far == FarScheme::kMarch && settings.shells; }
-bool rasterises(const FrameSettings& settings) { return draws_far(settings) && settings.far == FarScheme::kPlanes; }
+bool rasterises(const FrameSettings& settings) { return draws_far(settings) && settings.far != FarScheme::kMarch; }
 
 } // namespace
 
@@ -134,9 +135,10 @@ FieldView Renderer::Impl::prepare_field(const FrameSettings& settings, const Sho
     }
     if (rasterises(settings)) {
         const gl::PassScope pass(timers, "select far");
+        field.shares = settings.far == FarScheme::kPublished ? shells::published_shares() : shells::fitted_shares(world.grass);
         field.far = shells::select_far(world.grass, field.blocks, shot.bands,
                                        {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, settings.force_far_level,
-                                        mean_bend(constants)});
+                                        field.shares, mean_bend(constants)});
     }
     const gl::PassScope pass(timers, "block samples");
     block_samples.execute(field.blocks, field.fine);
@@ -155,11 +157,11 @@ void Renderer::Impl::draw_field(const FrameSettings& settings, const Shot& shot,
     }
     if (rasterises(settings) && settings.shells) {
         const gl::PassScope pass(timers, "shells");
-        draw.shells.execute({far_textures, field.far.shells, block_mesh});
+        draw.shells.execute({far_textures, field.far.shells, block_mesh, field.shares});
     }
     if (rasterises(settings) && settings.slices) {
         const gl::PassScope pass(timers, "slices");
-        draw.slices.execute({far_textures, field.far.slices, block_mesh});
+        draw.slices.execute({far_textures, field.far.slices, block_mesh, field.shares});
     }
 }
 

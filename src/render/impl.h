@@ -48,6 +48,7 @@ struct FieldView {
     std::vector<terrain::VisibleBlock> blocks;
     bool fine = false; ///< finer than the clipmap
     shells::FarList far;
+    shared::FarShares shares{}; ///< of the raster schemes
 };
 
 /// What one picture of a frame is drawn with: a still has one, the reference one per jitter.

@@ -130,7 +130,7 @@ FrameStats Renderer::stats() {
     if ((!impl_->mesh_ground || impl_->mesh_ground->has_set()) && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(impl_->targets.samples());
         DrawPasses& passes = impl_->passes(settings.aov);
-        if (settings.far == FarScheme::kPlanes && !impl_->mesh_ground) {
+        if (settings.far != FarScheme::kMarch && !impl_->mesh_ground) {
             stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
             stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
         } else if (settings.far == FarScheme::kMarch && settings.shells && !impl_->march_textures.empty()) {

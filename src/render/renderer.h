@@ -26,8 +26,8 @@ enum class Tiers { kAll, kBlades, kShells, kReference };
 /// blades at one distance, kFade dissolves every blade by the same pixel dither.
 enum class HandoverMode { kRank, kOff, kHard, kFade };
 
-/// How the far field is drawn: the march; the raster scheme before it, as a comparison.
-enum class FarScheme { kMarch, kPlanes };
+/// How the far field is drawn: the march; for comparison shells and slices one by one, in the shares that cover as blades do, or as published.
+enum class FarScheme { kMarch, kPlanes, kPublished };
 
 struct FrameSettings {
     int width = 1280;
