@@ -116,6 +116,16 @@ double radiance_of(const shared::MarchMedium& medium, const shared::GrassSums& g
     return sum / kSuns;
 }
 
+/// Footprint that reads so wide a part of a slab (m): march_slab_width's inverse, which rises.
+double slab_footprint(double width, float side) {
+    double low = width, high = width * std::exp2(-static_cast<double>(shared::kSlabBias));
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (shared::march_slab_width(static_cast<float>(middle), side) < width ? low : high) = middle;
+    }
+    return high;
+}
+
 /// Means of what the march sees with a factor.
 class MarchMean {
 public:
@@ -124,7 +134,7 @@ public:
         const double softness = shared::kSlabSoftness;
         footprint_ = which.kind == kMarchColumns
                          ? texel * std::exp2(which.mip - shared::kColumnBias)
-                         : texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)) * std::exp2(-static_cast<double>(shared::kSlabBias));
+                         : slab_footprint(texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)), data.medium.size.x);
     }
     [[nodiscard]] Marched at(double factor, bool light_too = false) const {
         Marched sum;
@@ -175,7 +185,7 @@ private:
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
             const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
             const Texel texel = reader.at(place, step.mip - shared::march_base(plan.kind));
-            const double lost = through * (1 - std::exp(-scale * step.depth * texel.density));
+            const double lost = through * (1 - std::exp(-scale * step.depth * shared::march_thickness(plan.kind, texel.density)));
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
             const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
             out.found += lost * found_at(height, 1);
