@@ -117,11 +117,11 @@ double radiance_of(const shared::MarchMedium& medium, const shared::GrassSums& g
 }
 
 /// Footprint that reads so wide a part of a slab (m): march_slab_width's inverse, which rises.
-double slab_footprint(double width, float side) {
+double slab_footprint(double width, float side, double elevation_deg) {
     double low = width, high = width * std::exp2(-static_cast<double>(shared::kSlabBias));
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (low + high);
-        (shared::march_slab_width(static_cast<float>(middle), side) < width ? low : high) = middle;
+        (shared::march_slab_width(static_cast<float>(middle), side, static_cast<float>(elevation_deg)) < width ? low : high) = middle;
     }
     return high;
 }
@@ -134,7 +134,7 @@ public:
         const double softness = shared::kSlabSoftness;
         footprint_ = which.kind == kMarchColumns
                          ? texel * std::exp2(which.mip - shared::kColumnBias)
-                         : slab_footprint(texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)), data.medium.size.x);
+                         : slab_footprint(texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)), data.medium.size.x, which.elevation_deg);
     }
     [[nodiscard]] Marched at(double factor, bool light_too = false) const {
         Marched sum;

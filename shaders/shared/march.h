@@ -186,6 +186,7 @@ SHARED_CONST float kColumnFrom = 0.055f, kColumnTo = 0.065f; // footprint at whi
 SHARED_CONST float kSteepFrom = 60.0f, kSteepTo = 67.0f;     // elevation likewise, degrees
 SHARED_CONST float kSlabBias = -0.57f, kSlabSoftness = 0.95f; // of the slabs' mip: sharper; never below so much of a texel
 SHARED_CONST float kSharpTo = 0.012f, kPlainFrom = 0.032f;   // footprint to which it is so sharp; from which a pixel is its own width: heads sparkle else
+SHARED_CONST float kPlainTo = 35.0f, kSharpFrom = 55.0f;     // elevation, degrees: steeper rays blur slabs enough by crossing them
 SHARED_CONST float kColumnBias = -0.7f;
 SHARED_CONST float kClumping = 0.9f; // power of a column's density: blades from one root hide each other from above
 SHARED_CONST float kStepBlur = 0.5f, kTapBlur = 1.5f; // of a step's own length, of its share of a stretched footprint
@@ -195,9 +196,10 @@ SHARED_FN float march_mip(float width, float side) {
     return log(max(width * float(kMarchTexels) / side, 1e-6f)) * 1.442695f;
 }
 
-// Width of what a pixel reads of a slab (m), for a footprint `p` on a patch of this side.
-SHARED_FN float march_slab_width(float p, float side) {
-    return p * exp2(kSlabBias * (1.0f - smoothstep(kSharpTo, kPlainFrom, p / side)));
+// Width of what a pixel reads of a slab (m), for a footprint `p` on a patch of this side; elevation in degrees.
+SHARED_FN float march_slab_width(float p, float side, float elevation) {
+    float plain = smoothstep(kSharpTo, kPlainFrom, p / side) * (1.0f - smoothstep(kPlainTo, kSharpFrom, elevation));
+    return p * exp2(kSlabBias * (1.0f - plain));
 }
 
 // Optical depth of a texel over the mean at its height, by its density over the mean.
@@ -291,7 +293,7 @@ SHARED_FN void march_settle(MARCH_MEDIUM SHARED_INOUT(MarchPlan) plan) {
         plan.steps = clamp(int(ceil(plan.run / (2.0f * max(p, side / float(kMarchTexels))))), least, 24);
         plan.mip = march_mip(p * exp2(kColumnBias), side);
     } else {
-        float own = march_slab_width(p, side) * float(kMarchTexels) / side;
+        float own = march_slab_width(p, side, plan.elevation) * float(kMarchTexels) / side;
         plan.mip = max(0.5f * log(own * own + kSlabSoftness * kSlabSoftness) * 1.442695f, 0.0f);
     }
     plan.table = vec2(clamp(2.0f * plan.mip, 0.0f, float(kMarchMips - 1)), plan.elevation / 5.0f);
