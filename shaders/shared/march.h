@@ -207,6 +207,13 @@ SHARED_FN float march_thickness(int kind, float density) {
     return kind == kMarchColumns ? pow(max(density, 0.0f), kClumping) : density;
 }
 
+// Share of the optical depth that the march takes where the near tier draws the share `near` of the blades. More than the rest: texels hold all
+// blades, and what they show of a drawn one lies in part behind it. Without it grass is 2.6 points thinner from 5 m above, at the band's end.
+SHARED_CONST float kHiddenOwn = 0.15f;
+SHARED_FN float march_share(float near) {
+    return (1.0f - near) / (1.0f - kHiddenOwn * near);
+}
+
 // s at which a path has come down to a height at rest, or as far down as it comes.
 SHARED_FN float march_reach(MarchPath path, float y) {
     float drop = max(path.height.x - march_bent_height(path, y), 0.0f);

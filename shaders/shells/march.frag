@@ -83,9 +83,9 @@ vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float shown) {
     return march_turned(path, taken.rest.y, mean);
 }
 
-// Share of the blades there that the near tier leaves.
+// Share of the optical depth there that the near tier leaves.
 float far_share(vec3 world) {
-    float share = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy);
+    float share = march_share(handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy));
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
 }
 
