@@ -183,7 +183,7 @@ struct MarchPlan {
 
 // Footprints are over the patch's side, so that a lawn and a reed bed are marched alike.
 SHARED_CONST float kColumnFrom = 0.055f, kColumnTo = 0.065f; // footprint at which the columns take over
-SHARED_CONST float kSteepFrom = 60.0f, kSteepTo = 67.0f;     // elevation likewise, degrees
+SHARED_CONST float kSteepFrom = 70.0f, kSteepTo = 77.0f;     // elevation likewise, degrees
 SHARED_CONST float kSlabBias = -0.57f, kSlabSoftness = 0.95f; // of the slabs' mip: sharper; never below so much of a texel
 SHARED_CONST float kSharpTo = 0.012f, kPlainFrom = 0.032f;   // footprint to which it is so sharp; from which a pixel is its own width: heads sparkle else
 SHARED_CONST float kPlainTo = 35.0f, kSharpFrom = 55.0f;     // elevation, degrees: steeper rays blur slabs enough by crossing them
