@@ -117,12 +117,12 @@ double radiance_of(const shared::MarchMedium& medium, const shared::GrassSums& g
     return sum / kSuns;
 }
 
-/// Footprint that reads so wide a part of a slab (m): march_slab_width's inverse, which rises.
-double slab_footprint(double width, float side, double elevation_deg) {
-    double low = width, high = width * std::exp2(-static_cast<double>(shared::kSlabBias));
+/// Footprint that reads so wide a part of its texture (m): march_width's inverse, which rises.
+double footprint_of(const Case& which, float side, double width) {
+    double low = width, high = width * std::exp2(-static_cast<double>(std::min(shared::kSlabBias, shared::kColumnBias)));
     for (int i = 0; i < 40; ++i) {
         const double middle = 0.5 * (low + high);
-        (shared::march_slab_width(static_cast<float>(middle), side, static_cast<float>(elevation_deg)) < width ? low : high) = middle;
+        (shared::march_width(which.kind, static_cast<float>(middle), side, static_cast<float>(which.elevation_deg)) < width ? low : high) = middle;
     }
     return high;
 }
@@ -133,9 +133,8 @@ public:
     MarchMean(const MarchData& data, const Case& which, int rays) : data_(data), case_(which), rays_(rays) {
         const double texel = data.medium.size.x / static_cast<double>(shared::kMarchTexels);
         const double softness = shared::kSlabSoftness;
-        footprint_ = which.kind == kMarchColumns
-                         ? texel * std::exp2(which.mip - shared::kColumnBias)
-                         : slab_footprint(texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)), data.medium.size.x, which.elevation_deg);
+        footprint_ = footprint_of(which, data.medium.size.x,
+                                  texel * (which.kind == kMarchColumns ? std::exp2(which.mip) : std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02))));
     }
     [[nodiscard]] Marched at(double factor, bool light_too = false) const {
         Marched sum;
@@ -186,7 +185,7 @@ private:
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
             const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
             const Texel texel = reader.at(place, step.mip - shared::march_base(plan.kind));
-            const double lost = through * (1 - std::exp(-scale * step.depth * shared::march_thickness(plan.kind, texel.density)));
+            const double lost = through * (1 - std::exp(-scale * step.depth * texel.density));
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
             const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
             out.found += lost * found_at(height, 1);

@@ -118,7 +118,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         vec3 uv = texel_place(plan, taken);
         vec4 texel = textureLod(densities, uv, taken.mip - march_base(kind));
-        float depth = scale * taken.depth * march_thickness(kind, texel.a);
+        float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
