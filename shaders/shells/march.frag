@@ -54,7 +54,11 @@ float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
     float gust = far_wind_place(frame.wind, wind);
     float calmer = min(floor(gust), float(kFarWinds - 2));
+#ifdef SURFACE
+    return surface_light_factor(light_factors, uv, to_sun.y, vec2(calmer, gust - calmer));
+#else
     return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).r, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).r, gust - calmer);
+#endif
 }
 
 vec3 texel_place(MarchPlan plan, MarchStep taken) {
@@ -209,7 +213,7 @@ void main() {
         through = seen.through;
 #ifdef CREST
 #ifdef SURFACE
-        entry = second_entry(view, pixel);
+        entry = entry_behind(view, pixel, entry);
 #else
         entry = entry_after(view, entry, path, walk, farthest);
 #endif

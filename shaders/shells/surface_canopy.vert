@@ -10,6 +10,7 @@ layout(location = 2) in vec3 curve_squares;  // diagonal of the shape operator, 
 layout(location = 3) in vec3 curve_products; // its yz, zx, xy
 layout(location = 4) in vec2 chart_lift;     // chart; 2 on top; of a wall 1 at its top, 0 on the ground
 uniform vec4 surface_origin;
+uniform float lift; // 1; 0: the ground itself
 
 out vec3 world;
 out vec3 normal;
@@ -37,7 +38,7 @@ void main() {
     normal = normal_in;
     wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2
     float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.mean.w).y;
-    height = top * min(chart_lift.y, 1.0);
+    height = lift * top * min(chart_lift.y, 1.0);
     on_top = chart_lift.y - 1.0;
     room = min(most_lift() / top, 1.0);
     world = root + normal * (height * room);

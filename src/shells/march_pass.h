@@ -25,13 +25,15 @@ public:
     /// At units from TEX_CANOPY_DEPTH or TEX_SECOND_DEPTH on.
     void bind_textures(std::uint32_t first) const;
     [[nodiscard]] const gl::Texture& depth() const { return depth_; }
+    [[nodiscard]] const gl::Texture& ground() const { return ground_; }
 
 private:
     gl::Texture depth_, ground_, air_;
     gl::Framebuffer surface_;
 };
 
-/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that through a wall, where it enters next.
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first and next. `exit` holds in place of the ground, for either, how
+/// long the way is from there to the ground or out again, and how high over the ground it ends (m); 0: it was not found.
 struct SurfaceTargets {
     CanopyTargets first, exit, second;
     void require(int width, int height);
