@@ -93,6 +93,6 @@ void main() {
     SurfaceFrame axes = surface_frame(chart, up);
     vec3 local = to_surface(axes, wind);
     out_ground = vec4(flattened(up), float(chart) + 0.96 * fanned_out(), room);
-    float first_end = beyond(texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r) - texelFetch(canopy_exits, ivec2(gl_FragCoord.xy), 0).x;
-    out_air = vec4(local.x, local.z, behind > 0.0 ? max(-first_end, 0.0) : parabola(normalize(world - frame.eye.xyz), up), height);
+    float first_goes_on = kHalfStep * texelFetch(canopy_exits, ivec2(gl_FragCoord.xy), 0).x - beyond(texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r);
+    out_air = vec4(local.x, local.z, behind > 0.0 ? max(first_goes_on, 0.0) : parabola(normalize(world - frame.eye.xyz), up), height);
 }

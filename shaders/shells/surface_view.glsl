@@ -7,6 +7,7 @@ layout(binding = TEX_SECOND_GROUND) uniform sampler2D second_ground;
 layout(binding = TEX_SECOND_AIR) uniform sampler2D second_air;
 layout(binding = TEX_CANOPY_EXIT) uniform sampler2D canopy_exits; // way to the end (m), height there: of the first, of the second
 uniform vec4 surface_origin; // of the mesh's space, world
+const float kLowestSun = -0.2; // sine of its height over the surface, of the first factors
 const float kOverGround = 0.99; // so much of the steepest way: what a ray passes it passes
 
 float along_ray(View view, float depth) {
@@ -117,7 +118,7 @@ float rise_at(Entry entry, View view) {
 // Of a mesh the factors on the light know the sun's height over the surface, too (shells/march_light.h). `wind`: the calmer of two, share of the other.
 float surface_light_factor(sampler2DArray factors, vec2 uv, float sun, vec2 wind) {
     float suns = float(textureSize(factors, 0).z / kFarWinds);
-    float place = clamp(sun, 0.0, 1.0) * (suns - 1.0);
+    float place = clamp((sun - kLowestSun) / (1.0 - kLowestSun), 0.0, 1.0) * (suns - 1.0);
     float lower = min(floor(place), suns - 2.0);
     vec2 by_wind = vec2(0.0);
     for (int i = 0; i < 2; ++i) {

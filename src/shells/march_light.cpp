@@ -112,6 +112,8 @@ std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& t
 
 namespace {
 
+constexpr float kLowestSun = -0.2f; // surface_view.glsl has it: where no sunlight is left
+
 /// The light over a surface that the sun stands so high over (sine), and that faces as much of the sky as most of a round mesh does.
 shared::Light light_from(const shared::Light& light, float sine) {
     constexpr float kOpenSky = 0.75f;
@@ -120,7 +122,7 @@ shared::Light light_from(const shared::Light& light, float sine) {
     const float flat = glm::length(heading);
     const float level = std::sqrt(std::max(1 - sine * sine, 0.0f));
     const glm::vec2 to = flat > 1e-4f ? heading * (level / flat) : glm::vec2(level, 0);
-    here.to_sun = {to.x, std::max(sine, kLeastSine), to.y, light.to_sun.w};
+    here.to_sun = {to.x, sine, to.y, light.to_sun.w};
     return here;
 }
 
@@ -142,7 +144,7 @@ void MarchLight::update(const shared::Light& light, const shared::WindField& win
     std::vector<float> texels;
     for (int n = 0; n < shared::kFarWinds; ++n) {
         for (int sun = 0; sun < suns_; ++sun) {
-            const shared::Light from = suns_ == 1 ? light : light_from(light, static_cast<float>(sun) / (kSuns - 1));
+            const shared::Light from = suns_ == 1 ? light : light_from(light, glm::mix(kLowestSun, 1.0f, static_cast<float>(sun) / (kSuns - 1)));
             const std::vector<float> one = light_factors(mean_.front(), far_light_, from, {shared::far_wind(wind, n), 0, wind_.w});
             texels.insert(texels.end(), one.begin(), one.end());
         }

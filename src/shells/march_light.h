@@ -30,7 +30,7 @@ private:
 /// What the march's light is multiplied by, so that its mean is that of rays through the blades (the set's far light): of many blades shading knows
 /// second moments alone. R16F, kAzimuths x kElevations, a layer for each of shared::kFarWinds winds. Columns: angle from the
 /// direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1. Of a mesh, which faces any way, a wind has
-/// kSuns layers: sine of the sun's height over the surface, 0..1.
+/// kSuns layers: sine of the sun's height over the surface, -0.2 (no sunlight) .. 1.
 class MarchLight {
 public:
     static constexpr int kAzimuths = 32;
