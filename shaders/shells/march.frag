@@ -13,7 +13,7 @@
 layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities;
 layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres;
 layout(binding = TEX_MARCH_CORRECTION) uniform sampler2DArray correction;
-layout(binding = TEX_MARCH_LIGHT) uniform sampler2D light_factors;
+layout(binding = TEX_MARCH_LIGHT) uniform sampler2DArray light_factors;
 uniform int kind;
 in vec2 ndc;
 #ifdef COUNT
@@ -58,7 +58,11 @@ float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     vec2 size = vec2(textureSize(light_factors, 0));
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
     float gust = far_wind_place(frame.wind, wind); // 0..2: one channel for each wind
-    vec3 winds = textureLod(light_factors, uv, 0.0).rgb;
+#ifdef SURFACE
+    vec3 winds = surface_light_factors(light_factors, uv, to_sun.y);
+#else
+    vec3 winds = textureLod(light_factors, vec3(uv, 0.0), 0.0).rgb;
+#endif
     return gust < 1.0 ? mix(winds.r, winds.g, gust) : mix(winds.g, winds.b, gust - 1.0);
 }
 
@@ -297,7 +301,7 @@ void main() {
         through = seen.through;
 #ifdef CREST
 #ifdef SURFACE
-        entry = second_entry(view, pixel);
+        entry = entry_behind(view, pixel, entry);
 #else
         entries = mix(entries, vec4(kNever), members);
         ray = ray_after(pixel, ray, path, walk, scene, entries);

@@ -83,6 +83,7 @@ void Renderer::Impl::draw_mesh_far(const FrameSettings& settings, const Shot& sh
     {
         const gl::PassScope pass(timers, "canopy");
         surface_canopy.require(settings.width, settings.height);
+        march_textures.bind();
         march.draw_surface(surface_canopy, mesh_ground->canopy(), origin, kApart * world.grass.canopy_m);
     }
     const shells::MarchPass::Inputs inputs{march_textures, surface_canopy.first, &surface_canopy, origin, targets.samples(), 0};

@@ -45,7 +45,7 @@ Renderer::Impl::Impl(World inputs)
     : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)), surface(world.elevation, world.scene.terrain.detail_m), clipmap(surface, world.mask),
       wind(world.scene.wind, response,
            std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })), march_textures(world.grass.march),
-      far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass), march_light(world.grass),
+      far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass), march_light(world.grass, !world.surface.triangles.empty()),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))), frame_buffer(sizeof(shared::FrameConstants)),
       colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), mean_blade_width_m(mean_width(world.grass)) {
     if (!world.surface.triangles.empty()) {

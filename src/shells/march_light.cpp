@@ -110,7 +110,25 @@ std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& t
     return factors;
 }
 
-MarchLight::MarchLight(const grass::GrassSet& set) : far_light_(set.far_light) {
+namespace {
+
+constexpr float kLowestSun = -0.2f; // surface_view.glsl has it: where no sunlight is left
+
+/// The light over a surface that the sun stands so high over (sine), and that faces as much of the sky as most of a round mesh does.
+shared::Light light_from(const shared::Light& light, float sine) {
+    constexpr float kOpenSky = 0.75f;
+    shared::Light here = shared::light_under(light, kOpenSky);
+    const glm::vec2 heading(light.to_sun.x, light.to_sun.z);
+    const float flat = glm::length(heading);
+    const float level = std::sqrt(std::max(1 - sine * sine, 0.0f));
+    const glm::vec2 to = flat > 1e-4f ? heading * (level / flat) : glm::vec2(level, 0);
+    here.to_sun = {to.x, sine, to.y, light.to_sun.w};
+    return here;
+}
+
+} // namespace
+
+MarchLight::MarchLight(const grass::GrassSet& set, bool mesh) : far_light_(set.far_light), suns_(mesh ? kSuns : 1) {
     if (!set.march.columns.density.mips.empty()) {
         mean_.emplace_back(set);
     }
@@ -124,15 +142,20 @@ void MarchLight::update(const shared::Light& light, const shared::WindField& win
     light_ = light;
     wind_ = wind.mean;
     static_assert(shared::kFarWinds < 4, "a channel each");
-    std::vector<glm::vec4> texels(static_cast<std::size_t>(kAzimuths) * kElevations, glm::vec4(0));
-    for (int n = 0; n < shared::kFarWinds; ++n) {
-        const std::vector<float> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
-        for (std::size_t i = 0; i < texels.size(); ++i) {
-            texels[i][n] = one[i];
+    std::vector<glm::vec4> texels;
+    for (int sun = 0; sun < suns_; ++sun) {
+        const shared::Light from = suns_ == 1 ? light : light_from(light, glm::mix(kLowestSun, 1.0f, static_cast<float>(sun) / (kSuns - 1)));
+        const std::size_t first = texels.size();
+        texels.resize(first + static_cast<std::size_t>(kAzimuths) * kElevations, glm::vec4(0));
+        for (int n = 0; n < shared::kFarWinds; ++n) {
+            const std::vector<float> one = light_factors(mean_.front(), far_light_, from, {shared::far_wind(wind, n), 0, wind_.w});
+            for (std::size_t i = 0; i < one.size(); ++i) {
+                texels[first + i][n] = one[i];
+            }
         }
     }
     if (!table_.id()) {
-        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations});
+        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, suns_});
         table_.set_filter(GL_LINEAR, GL_LINEAR);
         table_.set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
     }

@@ -54,7 +54,7 @@ void SurfaceTargets::require(int width, int height) {
 
 void SurfaceTargets::bind_textures() const {
     second.bind_textures(TEX_SECOND_DEPTH);
-    exit.depth().bind(TEX_CANOPY_EXIT);
+    exit.ground().bind(TEX_CANOPY_EXIT);
 }
 
 namespace {
@@ -66,6 +66,12 @@ gl::Program marcher(const char* name, std::vector<std::string> defines) {
 std::vector<std::filesystem::path> canopy_stages(bool surface) {
     return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}
                    : std::vector<std::filesystem::path>{"shells/canopy.vert", "shells/canopy.frag"};
+}
+
+void clear_depth(const CanopyTargets& targets) {
+    constexpr float kFar[4] = {0, 0, 0, 0};
+    targets.bind_for_drawing();
+    glClearBufferfv(GL_DEPTH, 0, kFar);
 }
 
 } // namespace
@@ -139,22 +145,42 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
 }
 
 void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m) {
-    constexpr float kFar[4] = {0, 0, 0, 0};
-    const auto draw = [&](const CanopyTargets& into, GLenum hidden, float behind) {
-        into.bind_for_drawing();
-        glClearBufferfv(GL_DEPTH, 0, kFar);
-        glCullFace(hidden);
-        canopy_.set("behind", behind);
-        mesh.draw();
-    };
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     canopy_.use();
     canopy_.set("surface_origin", glm::vec4(origin, 0));
-    draw(targets.exit, GL_FRONT, -1);
-    draw(targets.first, GL_BACK, 0);
+    canopy_.set("lift", 1.0f);
+    const auto enter = [&](const CanopyTargets& into, float behind) {
+        clear_depth(into);
+        canopy_.set("behind", behind);
+        mesh.draw();
+    };
+    // Through the top or a wall, from within, or to the ground: what is nearest. First and second share a target.
+    const auto leave = [&](const CanopyTargets& from, bool second) {
+        from.depth().bind(TEX_CANOPY_DEPTH);
+        clear_depth(targets.exit);
+        if (second) {
+            from.bind_textures(TEX_SECOND_DEPTH);
+            glColorMask(GL_FALSE, GL_FALSE, GL_TRUE, GL_TRUE);
+        }
+        canopy_.set("behind", second ? -2.0f : -1.0f);
+        glCullFace(GL_FRONT);
+        mesh.draw();
+        glCullFace(GL_BACK);
+        canopy_.set("lift", 0.0f);
+        mesh.draw();
+        canopy_.set("lift", 1.0f);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    };
+    targets.exit.bind_for_drawing();
+    constexpr float kUnknown[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, kUnknown);
+    enter(targets.first, 0);
+    leave(targets.first, false);
     targets.first.depth().bind(TEX_CANOPY_DEPTH);
-    draw(targets.second, GL_BACK, apart_m);
+    targets.exit.ground().bind(TEX_CANOPY_EXIT);
+    enter(targets.second, apart_m);
+    leave(targets.second, true);
     glDisable(GL_CULL_FACE);
 }
 

@@ -29,6 +29,7 @@ public:
     [[nodiscard]] const gl::Texture& depth() const { return depth_; }
     /// Where the scene's samples lie in a pixel, 0..1: x of four, then y. Fewer count more than once.
     [[nodiscard]] const std::array<glm::vec4, 2>& places() const { return places_; }
+    [[nodiscard]] const gl::Texture& ground() const { return ground_; }
 
 private:
     void find_places(int samples);
@@ -38,7 +39,8 @@ private:
     std::array<glm::vec4, 2> places_{glm::vec4(0.5f), glm::vec4(0.5f)};
 };
 
-/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that through a wall, where it enters next.
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first and next. `exit` holds in place of the ground, for either, how
+/// long the way is from there to the ground or out again, and how high over the ground it ends (m); 0: it was not found.
 struct SurfaceTargets {
     CanopyTargets first, exit, second;
     void require(int width, int height);

@@ -235,7 +235,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"canopy_samples", TEX_CANOPY_SAMPLES},
                                                 {"canopy_ground", TEX_CANOPY_GROUND},
                                                 {"canopy_air", TEX_CANOPY_AIR},
-                                                {"canopy_exit", TEX_CANOPY_EXIT},
+                                                {"canopy_exits", TEX_CANOPY_EXIT},
                                                 {"second_depth", TEX_SECOND_DEPTH},
                                                 {"second_ground", TEX_SECOND_GROUND},
                                                 {"second_air", TEX_SECOND_AIR},
