@@ -186,7 +186,7 @@ void main() {
     vec4 scene; // distance along the ray to what each sample shows
     for (int i = 0; i < 4; ++i) { // fewer samples count more than once
         float depth = texelFetch(scene_depth, pixel, i * samples / 4).r;
-        scene[i] = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+        scene[i] = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     }
     float farthest = max(max(scene.x, scene.y), max(scene.z, scene.w));
     Entry entry = entry_of(view, pixel);

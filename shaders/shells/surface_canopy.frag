@@ -57,7 +57,7 @@ void main() {
     if (behind > 0.0) {
         float depth = texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r;
         vec4 clip = frame.clip_from_world * vec4(world, 1.0);
-        if (depth <= 0.0 || clip.w < kNear_m / depth * (1.0 + kDepthStep) + behind) {
+        if (depth <= 0.0 || clip.w < frame.near_m / depth * (1.0 + kDepthStep) + behind) {
             discard;
         }
     }

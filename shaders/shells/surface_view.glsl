@@ -9,7 +9,7 @@ layout(binding = TEX_CANOPY_EXIT) uniform sampler2D canopy_exit;
 uniform vec4 surface_origin; // of the mesh's space, world
 
 float along_ray(View view, float depth) {
-    return depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+    return depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
 }
 
 // Inverse of the octahedral map (Cigolle et al. 2014).

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "sward/error.h"
 
 namespace {
 
@@ -42,6 +43,18 @@ void run(int argc, char** argv) {
     }
 }
 
+ExitCode code_of(sward::ErrorKind kind) {
+    switch (kind) {
+    case sward::ErrorKind::kInside: return ExitCode::kFailure;
+    case sward::ErrorKind::kUsage: return ExitCode::kUsage;
+    case sward::ErrorKind::kBadInput: return ExitCode::kBadInput;
+    case sward::ErrorKind::kOverLimit: return ExitCode::kOverLimit;
+    case sward::ErrorKind::kIo: return ExitCode::kIo;
+    case sward::ErrorKind::kNoGpu: return ExitCode::kNoGpu;
+    }
+    return ExitCode::kFailure;
+}
+
 int fail(ExitCode code, const std::string& message) {
     sward::base::log_error(message);
     return static_cast<int>(code);
@@ -63,6 +76,8 @@ int main(int argc, char** argv) {
         return reported.code;
     } catch (const sward::base::Error& error) {
         return fail(error.code(), error.what());
+    } catch (const sward::Error& error) { // of the library's face
+        return fail(code_of(error.kind()), error.what());
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::kFailure, "memory: found none left, expected room for the scene");
     } catch (const std::filesystem::filesystem_error& error) { // a working directory that is gone, say

@@ -165,6 +165,15 @@ void declare_render(CLI::App& app, Options* o) {
             throw option_error("--path", text, "a path of the scene");
         o->path = text;
     })->excludes("--camera");
+    declare(app, "--camera-matrices", "FILE",
+            "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], \"clip_from_view\": [16]}",
+            [=](const std::string& text) {
+                if (text.empty() || text.find('\0') != std::string::npos)
+                    throw option_error("--camera-matrices", text, "the name of a file");
+                o->camera_matrices = text;
+            })
+        ->excludes("--camera")
+        ->excludes("--path");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",

@@ -128,6 +128,34 @@ void MarchLight::update(const shared::Light& light, const shared::WindField& win
         const std::vector<float> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
         texels.insert(texels.end(), one.begin(), one.end());
     }
+    next_.clear();
+    upload(texels);
+}
+
+void MarchLight::follow(const shared::Light& light, const shared::WindField& wind) {
+    if (!table_.id()) {
+        update(light, wind);
+        return;
+    }
+    if (next_.empty()) {
+        if (mean_.empty() || (std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_)) {
+            return;
+        }
+        next_light_ = light;
+        next_wind_ = wind;
+    }
+    const int layer = static_cast<int>(next_.size()) / (kAzimuths * kElevations);
+    const std::vector<float> one = light_factors(mean_.front(), far_light_, next_light_, {shared::far_wind(next_wind_, layer), 0, next_wind_.mean.w});
+    next_.insert(next_.end(), one.begin(), one.end());
+    if (layer + 1 == shared::kFarWinds) {
+        light_ = next_light_;
+        wind_ = next_wind_.mean;
+        upload(next_);
+        next_.clear();
+    }
+}
+
+void MarchLight::upload(const std::vector<float>& texels) {
     if (!table_.id()) {
         table_ = gl::Texture(GL_R16F, {kAzimuths, kElevations, shared::kFarWinds});
         table_.set_filter(GL_LINEAR, GL_LINEAR);

@@ -40,14 +40,21 @@ public:
     explicit MarchLight(const grass::GrassSet& set);
     /// Computed when the light or the mean wind changes, in some ten milliseconds on the CPU.
     void update(const shared::Light& light, const shared::WindField& wind);
+    /// The same in parts, once a table is there: a layer of the next one a call, which takes the old one's place when it is whole. A sun that
+    /// moves is so followed some frames late, and no frame waits for a whole table.
+    void follow(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
 private:
+    void upload(const std::vector<float>& texels);
     const grass::FarLight& far_light_;
     std::vector<MeanMarch> mean_; ///< one, or none
     shared::Light light_{};
     glm::vec4 wind_{0};
     gl::Texture table_;
+    shared::Light next_light_{}; ///< of the table in the making
+    shared::WindField next_wind_{};
+    std::vector<float> next_;
 };
 
 /// The texels of one wind's layer.
