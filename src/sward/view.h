@@ -16,7 +16,7 @@ struct Target {
     int width = 0, height = 0;  ///< pixels; at least 1, at most what the GPU's textures take
 
     /// Out: the picture for a display, 8-bit sRGB, copied to `x`, `y` (its bottom left) of this framebuffer; 0 is the window's.
-    std::optional<std::uint32_t> framebuffer;
+    std::optional<std::uint32_t> framebuffer = {};
     int x = 0, y = 0;
     /// Out: linear radiance of the scene before exposure, alpha 1 (GL_RGBA16F or 32F).
     std::uint32_t colour = 0;
