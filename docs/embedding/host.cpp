@@ -31,7 +31,7 @@ out vec4 radiance;
 void main() { radiance = vec4(1.5, 0.1, 0.05, 1.0); })";
 
 void make_context() {
-    EGLDisplay display = eglGetPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     const EGLint wants[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE}, version[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
