@@ -9,7 +9,6 @@
 #include "gl/state_guard.h"
 #include "render/access.h"
 #include "render/load.h"
-#include "scene/arrow_edit.h"
 #include "sward/version.h"
 
 namespace sward {

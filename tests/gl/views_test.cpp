@@ -2,10 +2,14 @@
 // One field, many views: what they share, and what a host changes while they draw.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "gl/face_fixture.h"
 #include "gl/texture.h"
+#include "sward/log.h"
 
 namespace sward::tests {
 namespace {
@@ -257,6 +261,17 @@ TEST_F(Views, CamerasThatAreNoneAreRefused) {
     }
     EXPECT_THROW(view.draw(good, {0, kHeight}), Error);
     EXPECT_EQ(picture(view, good), before);
+}
+
+TEST_F(Views, MessagesGoToTheHost) {
+    std::vector<std::pair<LogLevel, std::string>> told;
+    set_log([&](LogLevel level, std::string_view text) { told.emplace_back(level, text); });
+    base::log_warning("of the host's");
+    base::log_debug("two\nlines");
+    set_log({});
+    ASSERT_EQ(told.size(), 2u);
+    EXPECT_EQ(told[0], (std::pair<LogLevel, std::string>(LogLevel::kWarning, "of the host's")));
+    EXPECT_EQ(told[1], (std::pair<LogLevel, std::string>(LogLevel::kDebug, "two\\nlines")));
 }
 
 TEST_F(Views, AnEyeComesBackToTheBit) {
