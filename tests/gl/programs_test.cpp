@@ -251,7 +251,11 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"scene_data", TEX_RESOLVE_DATA},
                                                 {"scene_tangent", TEX_RESOLVE_TANGENT},
                                                 {"scene_normal", TEX_RESOLVE_NORMAL},
-                                                {"scene_depth", TEX_RESOLVE_DEPTH}};
+                                                {"scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"host_color", TEX_RESOLVE_COLOR},
+                                                {"host_scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"resolved_color", TEX_RESOLVE_COLOR},
+                                                {"resolved_data", TEX_RESOLVE_DATA}};
     const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
                                       GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER};
     std::set<std::string> seen;
