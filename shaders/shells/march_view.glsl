@@ -35,7 +35,8 @@ struct Entry {
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
     vec2 place;     // of the entry on its chart (m)
-    vec2 curve_end; // bend of the surface under the ray, half of the height's second derivative (1/m); where the ray leaves the canopy (m from the eye)
+    float bend;     // of the surface under the ray: half of the height's second derivative (1/m)
+    vec2 way_out;   // how far the ray's way through the canopy is, and how high over the ground it ends (m); 0: unknown
 #endif
 };
 

@@ -22,8 +22,8 @@ namespace {
 using render::HandoverMode;
 using render::Tiers;
 
-constexpr std::array<std::pair<std::string_view, render::FarScheme>, 2> kFarSchemes = {
-    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}}};
+constexpr std::array<std::pair<std::string_view, render::FarScheme>, 3> kFarSchemes = {
+    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}, {"published", render::FarScheme::kPublished}}};
 constexpr std::array<std::pair<std::string_view, Tiers>, 4> kTiers = {
     {{"all", Tiers::kAll},
      {"blades", Tiers::kBlades},
@@ -104,7 +104,7 @@ void declare_frame_options(CLI::App& app, Options* o) {
     declare(app, "--exposure", "FACTOR", "default 1", [=](const std::string& text) {
         o->frame.exposure = static_cast<float>(parse_number("--exposure", text, kExposure));
     });
-    declare(app, "--far", "march|planes", "how the far field is drawn; planes: the raster scheme before the march, as a comparison",
+    declare(app, "--far", "march|planes|published", "how the far field is drawn; planes: shells and slices one by one; published: the same in the published shares; both as comparisons",
             [=](const std::string& text) { o->frame.far = parse_choice("--far", text, kFarSchemes); });
     declare(app, "--blades-distance", "METRES", "how far --tiers blades draws; default 200",
             [=](const std::string& text) {

@@ -16,8 +16,8 @@ public:
     StateGuard(const StateGuard&) = delete;
     StateGuard& operator=(const StateGuard&) = delete;
 
-    static constexpr int kUnits = 27;         ///< texture units 0 to 26
-    static constexpr int kUniformBuffers = 6; ///< bindings
+    static constexpr int kUnits = 28;         ///< texture units 0 to 27
+    static constexpr int kUniformBuffers = 7; ///< bindings
     static constexpr int kStorageBuffers = 8;
     static constexpr int kDrawBuffers = 8;    ///< with a colour mask and blending of their own
     static constexpr int kCaps = 28;          ///< switches

@@ -62,7 +62,7 @@ FieldState::FieldState(World inputs)
       march_textures(world.grass.march), far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))),
       colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), objects(world),
-      mean_blade_width_m(mean_width(world.grass)), frame_buffer_(sizeof(shared::FrameConstants)), march_light_(world.grass) {
+      mean_blade_width_m(mean_width(world.grass)), frame_buffer_(sizeof(shared::FrameConstants)), march_light_(world.grass, !world.surface.triangles.empty()) {
     if (!world.surface.triangles.empty()) {
         mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
         mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();

@@ -27,7 +27,7 @@ private:
     [[nodiscard]] bool has_blades() const { return draws_blades(s_); }
     [[nodiscard]] bool has_far() const { return s_.tiers == Tiers::kAll || s_.tiers == Tiers::kShells; }
     [[nodiscard]] bool marches() const;
-    [[nodiscard]] bool rasterises() const { return on_elevation() && has_far() && s_.far == FarScheme::kPlanes; }
+    [[nodiscard]] bool rasterises() const { return on_elevation() && has_far() && s_.far != FarScheme::kMarch; }
     [[nodiscard]] const blades::LivingBlades* living() const { return s_.physics && has_blades() ? f_.living() : nullptr; }
 
     // Between passes.
@@ -71,6 +71,7 @@ private:
     std::vector<terrain::VisibleBlock> blocks_;
     bool fine_ = false;              ///< ground finer than the clipmap
     shells::FarList far_;
+    shared::FarShares shares_{}; ///< of the raster schemes
     std::size_t batch_ = 0;          ///< one more than the batch of blades in the making
 };
 

@@ -101,11 +101,6 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     const double aside = glm::length(glm::dvec2(lod_eye.x - eye.x, lod_eye.z - eye.z));
     shot.detail = terrain::detail_of(lens.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover.y) + aside);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
-    for (int i = 0; !set.far.empty() && i <= shared::kShareSteps; ++i) {
-        const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;
-        out.shell_share[i] = shells::shell_share_at(set, elevation);
-        out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
-    }
     out.mode.w = set.height_coding;
     clipmap.describe(out, anchor);
     out.clip_layout.y = settings.width;

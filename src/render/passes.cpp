@@ -6,6 +6,7 @@
 #include "render/pass_names.h"
 #include "shared/bend.h"
 #include "shared/bindings.h"
+#include "shells/far_shares.h"
 
 namespace sward::render {
 
@@ -83,8 +84,10 @@ void Frame::select_blocks() {
 
 void Frame::select_far() {
     const shared::FrameConstants& constants = shot_.constants;
+    shares_ = s_.far == FarScheme::kPublished ? shells::published_shares() : shells::fitted_shares(f_.world.grass);
     far_ = shells::select_far(f_.world.grass, blocks_, shot_.bands,
-                              {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, s_.force_far_level, mean_bend(constants)});
+                              {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, s_.force_far_level, shares_,
+                               mean_bend(constants)});
 }
 
 void Frame::sample_blocks() { v_.block_samples.execute(blocks_, fine_); }
@@ -135,9 +138,9 @@ void Frame::draw_surface_blades() {
     v_.blades_considered = grass.considered();
 }
 
-void Frame::draw_shells() { passes_.shells.execute({f_.far_textures, far_.shells, f_.block_mesh}); }
+void Frame::draw_shells() { passes_.shells.execute({f_.far_textures, far_.shells, f_.block_mesh, shares_}); }
 
-void Frame::draw_slices() { passes_.slices.execute({f_.far_textures, far_.slices, f_.block_mesh}); }
+void Frame::draw_slices() { passes_.slices.execute({f_.far_textures, far_.slices, f_.block_mesh, shares_}); }
 
 void Frame::draw_sky() { passes_.screen.sky(); }
 

@@ -22,9 +22,10 @@ void Frame::follow_light() { f_.follow_light(shot_.constants.light, shot_.consta
 void Frame::draw_canopy() {
     if (on_mesh()) {
         v_.surface_canopy.require(s_.width, s_.height);
+        f_.march_textures.bind(); // the canopy's height knows how far its blades lean
         passes_.march.draw_surface(v_.surface_canopy, f_.mesh_ground->canopy(), glm::vec3(-shot_.anchor), kApart * f_.world.grass.canopy_m);
     } else {
-        v_.canopy.require(s_.width, s_.height);
+        v_.canopy.require(s_.width, s_.height, v_.targets.samples());
         passes_.march.draw_canopy(v_.canopy, static_cast<int>(blocks_.size()), f_.block_mesh);
     }
 }

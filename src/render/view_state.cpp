@@ -50,7 +50,7 @@ FrameStats ViewState::stats() const {
     if ((!mesh || mesh->has_set()) && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(targets.samples());
         const DrawPasses& passes = field->passes(settings.aov);
-        if (settings.far == FarScheme::kPlanes && !mesh) {
+        if (settings.far != FarScheme::kMarch && !mesh) {
             stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
             stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
         } else if (settings.far == FarScheme::kMarch && settings.shells && !field->march_textures.empty()) {

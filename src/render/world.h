@@ -11,8 +11,8 @@
 
 namespace sward::render {
 
-/// How the far field is drawn: the march; the raster scheme before it, as a comparison.
-enum class FarScheme { kMarch, kPlanes };
+/// How the far field is drawn: the march; for comparison shells and slices one by one, in the shares that cover as blades do, or as published.
+enum class FarScheme { kMarch, kPlanes, kPublished };
 
 /// Inputs of a field, loaded by whoever makes it (the core reads no heavy formats).
 struct World {
