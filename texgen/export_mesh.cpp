@@ -57,7 +57,7 @@ std::size_t add_mesh(GlbWriter& glb, const Task& task, const std::string& specie
                                {"TEXCOORD_0", glb.add_floats(m.uvs, 2)},
                                {"TEXCOORD_1", glb.add_floats(m.wind_uvs, 2)},
                                {"COLOR_0", glb.add_unorm16(m.colours)},
-                               {"_BLADE", glb.add_floats(m.blades, 3)}, // of one shape and type: see BladeAttributes
+                               {"_BLADE", glb.add_floats(m.blades, 3)}, // of one shape and type: Blender's importer takes one for another
                                {"_ROOT", glb.add_floats(m.roots, 3)},
                                {"_WIND", glb.add_floats(m.winds, 3)}};
     const std::string name = fmt::format("variant{}_{}_LOD{}", task.variant, species, task.level);

@@ -11,6 +11,7 @@
 #include "assets/image_file.h"
 #include "assets/limits.h"
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -19,6 +20,7 @@ constexpr std::array<const char*, 4> kDrivers = {"PNG", "GTiff", "JPEG", nullptr
 
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 

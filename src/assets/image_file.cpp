@@ -17,6 +17,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -31,6 +32,7 @@ bool starts_with(std::span<const std::byte> head, std::initializer_list<int> mag
 
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(ExitCode::kBadInput, path, 0, what, found, expected);
 }
 

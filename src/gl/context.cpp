@@ -8,11 +8,18 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::gl {
 
 using base::Error;
 using base::ExitCode;
+
+namespace {
+
+constexpr std::size_t kDriverRoom = std::size_t{512} << 20; ///< a driver with its compiler may take so much address space
+
+} // namespace
 
 struct HeadlessContext::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
@@ -66,6 +73,7 @@ HeadlessContext::HeadlessContext(bool debug) : impl_(std::make_unique<Impl>()) {
         impl_->platform = "surfaceless";
         return;
     }
+    base::refuse_if_starved(kDriverRoom);
     throw Error(ExitCode::kNoGpu, fmt::format("GPU: no OpenGL 4.5 core context through EGL ({} devices and the surfaceless "
                                               "platform tried); is a driver installed (Debian: libegl-mesa0 libgl1-mesa-dri)?", count));
 }

@@ -67,6 +67,19 @@ class Options(TexgenCase):
         self.refuse_texgen(2, ["before"], "-q", "verify", "set")
         self.refuse_texgen(5, ["no-such", "meadow"], "no-such", "-o", "set")
 
+    def test_a_wrong_option_is_blamed(self):
+        """The option that there is not, and not the value after it or what is missing because of it."""
+        for words in (["tiny.toml", "-n", "8", "-o", "set"], ["-n", "8", "tiny.toml", "-o", "set"], ["tiny.toml", "-n", "8"],
+                      ["seam", "a.png", "-n", "8", "-o", "b.png"], ["seam", "a.png", "-n", "8"], ["import", "-n", "8", "a.vdb", "-o", "set"],
+                      ["export", "set", "-n", "8"], ["inspect", "set", "-n", "8"], ["verify", "-n", "8", "set"], ["import", "-n", "-up", "q"]):
+            with self.subTest(words=words):
+                self.refuse_texgen(2, ["error: -n: found an unknown option", "--help"], *words)
+        self.refuse_texgen(2, ["error: --sise: found an unknown option", "perhaps --size"], "tiny.toml", "--sise", "64", "-o", "set")
+        self.refuse_texgen(2, ["error: --sise=64: found", "perhaps --size"], "import", "a.vdb", "-o", "set", "--sise=64")
+        self.refuse_texgen(2, ["error: --output: found \"--size\""], "tiny.toml", "-o", "--size", "64")
+        self.refuse_texgen(2, ["error: --size: found \"--levels\""], "tiny.toml", "-o", "set", "--size", "--levels", "2")
+        self.refuse_texgen(2, ["--output", "2 times"], "tiny.toml", "-o", "set", "-o", "other")
+
     def test_preset_values(self):
         """Nonsense in the preset is refused with file, line, key, value and range."""
         cases = [("density_per_m2 = 300.0", "density_per_m2 = -1.0", 3, ["density_per_m2", "-1"]),
