@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "texgen/blade_mesh.h"
 #include "texgen/glb.h"
 #include "texgen/parallel.h"
@@ -32,11 +33,13 @@ std::vector<Task> make_meshes(const grass::GrassSet& set, int levels, int thread
         for (int v = 0; v < set.variants; ++v)
             for (int s = 0; s < static_cast<int>(set.species.size()); ++s)
                 tasks.push_back({level, v, s, {}});
+    base::Progress progress("blade meshes", tasks.size());
     parallel_for(tasks.size(), resolve_threads(threads), [&](std::size_t i, int) {
         Task& task = tasks[i];
         const auto v = static_cast<std::size_t>(task.variant);
         const auto blades = std::span(set.blades).subspan(set.variant_begin[v], set.variant_begin[v + 1] - set.variant_begin[v]);
         task.mesh = blade_mesh(blades, task.species, set.species[static_cast<std::size_t>(task.species)].look, kMeshLods[task.level]);
+        progress.advance();
     });
     return tasks;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/context.h"
 
+#include <cstdlib>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -28,6 +29,7 @@ struct HeadlessContext::Impl {
 
     /// True when `candidate` gave a current 4.5 core context.
     bool try_display(EGLDisplay candidate, bool debug) {
+        ::setenv("EGL_LOG_LEVEL", "fatal", 0); // what its loader could not do is told once, by us
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) {
             return false;
         }

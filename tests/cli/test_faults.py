@@ -174,10 +174,10 @@ class Room(CliCase):
         self.scene()
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
 
-    def commands(self):
+    @staticmethod
+    def commands():
         bake = ("texgen", "tiny.toml", "-o", "made/set", "-q", "--no-preview", "--no-volume", "--threads", "2")
-        return [("sward", "--version"), ("texgen", "--version"), ("sward", "info", "scene.toml"),
-                ("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE), bake]
+        return [("texgen", "--version"), ("sward", "info", "scene.toml"), ("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE), bake]
 
     def hold(self, codes, limits, prefix=(), env=None):
         """Every command ends with one of the codes, in one line unless it is 0, and leaves nothing then."""
@@ -198,7 +198,7 @@ class Room(CliCase):
 
     def test_little_memory(self):
         env = environment(MESA_SHADER_CACHE_DISABLE="true")
-        for most in (400_000, 440_000, 500_000, 600_000):
+        for most in (400_000, 600_000):
             with self.subTest(kib=most):
                 self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 10, most << 10)), env=env)
 
@@ -210,7 +210,7 @@ class Room(CliCase):
         self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_NPROC, (1, 1)), prefix=user)
 
     def test_few_handles(self):
-        for most in (*range(4, 13), 16):
+        for most in (4, 6, 9, 12):
             with self.subTest(handles=most):
                 self.hold({5}, lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (most, most)))
 

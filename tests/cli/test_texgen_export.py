@@ -238,6 +238,12 @@ class Textures(ExportCase):
             self.assertTrue(numpy.array_equal(mine[..., 3], its[..., 3]), image["name"])
             there = its[..., 3] > 0
             self.assertTrue(numpy.array_equal(mine[there], its[there]), image["name"])
+            tangent = ktx2(self.files[f"tangent_{image['array']}.ktx2"])[2][0][image["index"]][there][:, :3]
+            its = numpy.asarray(Image.open(self.dir / f"own-png/{image['name']}_tangent.png"))[there]
+            self.assertTrue(numpy.array_equal(tangent, its), image["name"])
+            length = numpy.linalg.norm(tangent / 127.5 - 1, axis=1)
+            self.assertLess(numpy.abs(length - 1).max(), 0.03, image["name"])
+            self.assertGreaterEqual(tangent[:, 1].min(), 127, image["name"])  # a blade's way is up, or along the ground
         for mips in (layers, slices):
             def means(mip):
                 alpha = mip[..., 3:] / 255
