@@ -77,7 +77,7 @@ class Options(TexgenCase):
             with self.subTest(words=words):
                 self.refuse_texgen(2, ["error: -n: found an unknown option", "--help"], *words)
         self.refuse_texgen(2, ["error: --sise: found an unknown option", "perhaps --size"], "tiny.toml", "--sise", "64", "-o", "set")
-        self.refuse_texgen(2, ["error: --sise=64: found", "perhaps --size"], "import", "a.vdb", "-o", "set", "--sise=64")
+        self.refuse_texgen(2, ["error: --sizes=64: found", "perhaps --size"], "import", "a.vdb", "-o", "set", "--sizes=64")
         self.refuse_texgen(2, ["error: --output: found \"--size\""], "tiny.toml", "-o", "--size", "64")
         self.refuse_texgen(2, ["error: --size: found \"--levels\""], "tiny.toml", "-o", "set", "--size", "--levels", "2")
         self.refuse_texgen(2, ["--output", "2 times"], "tiny.toml", "-o", "set", "-o", "other")
