@@ -13,6 +13,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "assets/ascii_grid.h"
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -171,9 +172,10 @@ void check_png_chunks(const std::filesystem::path& path) {
 }
 
 Channel read_channel(const std::filesystem::path& path, const ChannelRequest& request) {
-    const Format format = format_of(base::read_head(path, 16)); // refuses what is no regular file
-    if (format == Format::kUnknown)
-        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR or JPEG");
+    const std::vector<std::byte> head = base::read_head(path, 16); // refuses what is no regular file
+    const Format format = format_of(head);
+    if (format == Format::kUnknown && !is_ascii_grid(head))
+        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR, JPEG or an ASCII grid");
     if (std::filesystem::file_size(path) > kMostFileBytes)
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
                                 fmt::format("{} bytes", std::filesystem::file_size(path)),
