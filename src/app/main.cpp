@@ -10,6 +10,7 @@
 #include "app/options.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/last_words.h"
 #include "base/log.h"
 #include "sward/error.h"
 
@@ -62,6 +63,8 @@ int fail(ExitCode code, const std::string& message) {
 
 } // namespace
 
+SWARD_BEFORE_LIBRARIES("sward");
+
 void sward::app::flush_results() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
         throw base::Error(base::ExitCode::kIo, "stdout: cannot write: found a full or closed stream, expected room for the report");
@@ -79,13 +82,13 @@ int main(int argc, char** argv) {
     } catch (const sward::Error& error) { // of the library's face
         return fail(code_of(error.kind()), error.what());
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::kFailure, "memory: found none left, expected room for the scene");
+        return fail(ExitCode::kOverLimit, "memory: found none left, expected room for the scene");
     } catch (const std::filesystem::filesystem_error& error) { // a working directory that is gone, say
         const std::string name = error.path1().empty() ? "working directory" : sward::base::printable(error.path1().native(), 300);
         return fail(ExitCode::kIo, name + ": cannot use: found " +
                                        error.code().message() + ", expected a file or directory that can be reached");
     } catch (const std::system_error& error) { // no thread, no handle
-        return fail(ExitCode::kFailure, "system: found " + error.code().message() + ", expected room for a thread");
+        return fail(ExitCode::kOverLimit, "system: found " + error.code().message() + ", expected room for a thread (ulimit -u, -v)");
     } catch (const std::exception& error) {
         return fail(ExitCode::kFailure,
                     "inside sward: " + sward::base::printable(error.what(), 300));
