@@ -270,6 +270,7 @@ std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, i
     // [depth, light][density][elevation][kind][mip]
     constexpr std::size_t kTable = kDensities * kElevations * kKinds;
     std::vector<std::array<double, kMips.size()>> found(2 * kTable);
+    base::Progress progress("the march's correction", kDensities * kElevations);
     parallel_for(kDensities * kElevations, resolve_threads(threads), [&](std::size_t i, int) {
         const double density = grass::kMarchDensities[i / kElevations], elevation = kElevationsDeg[i % kElevations];
         const double wanted = true_mean(data, truth, {0, 0, elevation, density}, true_rays);
@@ -286,6 +287,7 @@ std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, i
         for (std::size_t kind = 0; kind < kKinds; ++kind) // as bright as the columns' coarsest mip, which the set's far light corrects
             for (std::size_t m = 0; m < kMips.size(); ++m)
                 found[kTable + i * kKinds + kind][m] = std::clamp(light[kMarchColumns].back() / std::max(light[kind][m], 1e-9), kDarkest, 1 / kDarkest);
+        progress.advance();
     });
     std::vector<float> table;
     const auto value = [&](std::size_t which, std::size_t kind, int half, int step) {

@@ -12,7 +12,7 @@
 SHARED_BEGIN
 
 SHARED_CONST int kMaxClipLevels = 16;
-SHARED_CONST float kNear_m = 0.05f; // near plane; reversed depth holds near / distance
+SHARED_CONST float kNear_m = 0.05f; // near plane where a camera names no other
 SHARED_CONST int kClipCells = 128; // posts a side of a clipmap level; memory grows with its square
 
 SHARED_CONST int kMaskNone = 0;    // density by the slope
@@ -39,9 +39,11 @@ struct FrameConstants {
     vec4 ground_colours[2]; // soil, bare rock; a: unused
     vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
+    float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
+    float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 64);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 80);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -14,7 +14,7 @@ vec4 sample_entries(View view, ivec2 pixel) {
     vec4 entries;
     for (int i = 0; i < 4; ++i) { // fewer samples count more than once
         float depth = texelFetch(canopy_samples, pixel, i * samples / 4).r;
-        entries[i] = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+        entries[i] = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     }
     return entries;
 }

@@ -239,7 +239,7 @@ vec4 scene_of(View view, ivec2 pixel) {
     vec4 scene;
     for (int i = 0; i < 4; ++i) { // fewer samples count more than once
         float depth = texelFetch(scene_depth, pixel, i * samples / 4).r;
-        scene[i] = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+        scene[i] = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     }
     return scene;
 }

@@ -57,7 +57,7 @@ float beyond(float depth) {
     vec3 ray = world - frame.eye.xyz;
     float far = length(ray);
     float axis = (frame.clip_from_world * vec4(world, 1.0)).w / far;
-    return depth > 0.0 ? far - kNear_m / (depth * axis) : 0.0;
+    return depth > 0.0 ? far - frame.near_m / (depth * axis) : 0.0;
 }
 
 // What lies before the entry, or before the first part's end, is another part's; a fold's inside is no way out.
@@ -85,7 +85,7 @@ void main() {
     if (behind > 0.0) {
         float depth = texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r;
         vec4 clip = frame.clip_from_world * vec4(world, 1.0);
-        if (depth <= 0.0 || clip.w < kNear_m / depth * (1.0 + kDepthStep) + behind) {
+        if (depth <= 0.0 || clip.w < frame.near_m / depth * (1.0 + kDepthStep) + behind) {
             discard;
         }
     }

@@ -11,7 +11,7 @@ const float kLowestSun = -0.2; // sine of its height over the surface, of the fi
 const float kOverGround = 0.99; // so much of the steepest way: what a ray passes it passes
 
 float along_ray(View view, float depth) {
-    return depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+    return depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
 }
 
 // Inverse of the octahedral map (Cigolle et al. 2014).

@@ -40,7 +40,7 @@ public:
 private:
     render::Renderer renderer_;
     render::FrameSettings settings_;
-    render::View view_;
+    render::Moment view_;
     render::FrameStats stats_;
 };
 

@@ -42,18 +42,29 @@ public:
     MarchLight(const grass::GrassSet& set, bool mesh);
     /// Computed when the light or the mean wind changes, in some ten milliseconds on the CPU; of a mesh in kSuns times that.
     void update(const shared::Light& light, const shared::WindField& wind);
+    /// The same in parts, once a table is there: one wind of the next one a call, which takes the old one's place when it is whole. A sun that
+    /// moves is so followed some frames late, and no frame waits for a whole table.
+    void follow(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
 private:
+    [[nodiscard]] bool is_of(const shared::Light& light, const shared::WindField& wind) const;
+    /// The next table, in parts of one wind and one sun each; true when it is whole and drawn with.
+    void begin(const shared::Light& light, const shared::WindField& wind);
+    bool add_part();
     const grass::FarLight& far_light_;
     std::vector<MeanMarch> mean_; ///< one, or none
     shared::Light light_{};
     glm::vec4 wind_{0};
-    int suns_; ///< layers a wind
+    int suns_; ///< layers
     gl::Texture table_;
+    shared::Light next_light_{}; ///< of the table in the making
+    shared::WindField next_wind_{};
+    int parts_ = 0; ///< that it has
+    std::vector<glm::vec4> next_;
 };
 
-/// The texels of one wind's layer.
+/// The factors for one wind.
 [[nodiscard]] std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& truth, const shared::Light& light, const glm::vec4& wind);
 
 } // namespace sward::shells

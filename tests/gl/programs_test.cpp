@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "gl/fixture.h"
-#include "render/impl.h"
+#include "render/draw_passes.h"
 #include "terrain/terrain_pass.h"
 
 namespace sward::tests {
@@ -42,13 +42,15 @@ std::vector<Variant> variants() {
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
                                 {{"blades/wake.comp"}, {"SURFACE"}},
-                                {{"render/screen.vert", "render/tone_map.frag"}, {}}};
+                                {{"render/screen.vert", "render/tone_map.frag"}, {}},
+                                {{"render/screen.vert", "render/hand_out.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
         {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
         {"shells/far.vert", "shells/far.frag"},
         {"render/mesh.vert", "render/mesh.frag"},
         {"render/screen.vert", "render/sky.frag"},
+        {"render/screen.vert", "render/host_scene.frag"},
         {"render/screen.vert", "render/resolve.frag"}};
     for (const auto& stages : with_aov) {
         all.push_back({stages, {}});
@@ -252,7 +254,11 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"scene_data", TEX_RESOLVE_DATA},
                                                 {"scene_tangent", TEX_RESOLVE_TANGENT},
                                                 {"scene_normal", TEX_RESOLVE_NORMAL},
-                                                {"scene_depth", TEX_RESOLVE_DEPTH}};
+                                                {"scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"host_color", TEX_RESOLVE_COLOR},
+                                                {"host_scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"resolved_color", TEX_RESOLVE_COLOR},
+                                                {"resolved_data", TEX_RESOLVE_DATA}};
     const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
                                       GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER};
     std::set<std::string> seen;
