@@ -63,8 +63,13 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
         const StepTimer timer("march");
         const HeightCaster truth = cast_blades(patch, set.canopy_m);
         MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(), heights_met(truth, preset.side_m, set.canopy_m));
-        for (int v = 0; v < patch.variants(); ++v)
-            add_blades(patch, v, builder);
+        {
+            base::Progress progress("the march's images", static_cast<std::size_t>(patch.variants()));
+            for (int v = 0; v < patch.variants(); ++v) {
+                add_blades(patch, v, builder);
+                progress.advance();
+            }
+        }
         MarchData data = builder.finish(patch.looks);
         fit_slopes(patch, static_cast<int>(preset.far_rays), options.threads, data.medium);
         set.march = pack_march(data);

@@ -44,7 +44,7 @@ void require_blades(const grass::GrassSet& set, const fs::path& directory) {
 void write_for_blender(const grass::GrassSet& set, const ExportCommandOptions& o, const fs::path& folder) {
     base::write_file_atomic(folder / kMeshFile, encode_blade_meshes(set, 1, o.threads));
     base::write_file_atomic(folder / grass::kBladesFile,
-                            grass::encode_blades(set.blades, set.variant_begin, set.side_m, grass::BladeAttributes::kScalars));
+                            grass::encode_blades(set.blades, set.variant_begin, set.side_m));
     const std::vector<FileEntry> files = listed_files(o.input);
     const auto volume = std::ranges::find(files, grass::kVolumeFile, &FileEntry::name);
     if (volume != files.end())

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "texgen/blade_mesh.h"
 #include "texgen/glb.h"
 #include "texgen/parallel.h"
@@ -32,11 +33,13 @@ std::vector<Task> make_meshes(const grass::GrassSet& set, int levels, int thread
         for (int v = 0; v < set.variants; ++v)
             for (int s = 0; s < static_cast<int>(set.species.size()); ++s)
                 tasks.push_back({level, v, s, {}});
+    base::Progress progress("blade meshes", tasks.size());
     parallel_for(tasks.size(), resolve_threads(threads), [&](std::size_t i, int) {
         Task& task = tasks[i];
         const auto v = static_cast<std::size_t>(task.variant);
         const auto blades = std::span(set.blades).subspan(set.variant_begin[v], set.variant_begin[v + 1] - set.variant_begin[v]);
         task.mesh = blade_mesh(blades, task.species, set.species[static_cast<std::size_t>(task.species)].look, kMeshLods[task.level]);
+        progress.advance();
     });
     return tasks;
 }
@@ -57,7 +60,7 @@ std::size_t add_mesh(GlbWriter& glb, const Task& task, const std::string& specie
                                {"TEXCOORD_0", glb.add_floats(m.uvs, 2)},
                                {"TEXCOORD_1", glb.add_floats(m.wind_uvs, 2)},
                                {"COLOR_0", glb.add_unorm16(m.colours)},
-                               {"_BLADE", glb.add_floats(m.blades, 3)}, // of one shape and type: see BladeAttributes
+                               {"_BLADE", glb.add_floats(m.blades, 3)}, // of one shape and type: Blender's importer takes one for another
                                {"_ROOT", glb.add_floats(m.roots, 3)},
                                {"_WIND", glb.add_floats(m.winds, 3)}};
     const std::string name = fmt::format("variant{}_{}_LOD{}", task.variant, species, task.level);

@@ -4,7 +4,10 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "base/hash.h"
+#include "base/log.h"
 #include "texgen/import.h"
 #include "texgen/import_field.h"
 #include "texgen/parallel.h"
@@ -282,7 +285,11 @@ grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query,
     const Patch patch;
     const BakeFrame frame{preset, patch, set.canopy_m, set.offset_range_m, seen, query.threads, nullptr};
     const std::vector<Task> tasks = plan_tasks(field, set, level, out);
-    parallel_for(tasks.size(), resolve_threads(query.threads), [&](std::size_t t, int) { tasks[t].run(field, frame); });
+    base::Progress progress(fmt::format("layers and slices, level {}", level), tasks.size());
+    parallel_for(tasks.size(), resolve_threads(query.threads), [&](std::size_t t, int) {
+        tasks[t].run(field, frame);
+        progress.advance();
+    });
     return out;
 }
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // texgen: a species preset becomes a grass set (docs/texgen.md).
-#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <string_view>
 #include <system_error>
-
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/last_words.h"
 #include "base/log.h"
 #include "texgen/options.h"
 #include "texgen/report.h"
@@ -29,39 +26,14 @@ int run(int argc, char** argv) {
     return options.run(options);
 }
 
-/// What no handler of ours can catch: an exception in a library's thread or before main().
-[[noreturn]] void end_in_one_line() {
-    const auto end = [](base::ExitCode code, std::string_view line) {
-        (void)!::write(STDERR_FILENO, line.data(), line.size());
-        ::_exit(static_cast<int>(code));
-    };
-    constexpr std::string_view kNoRoom = "error: texgen: found too little memory or too few threads, expected room to start (ulimit -v, -u)\n";
-    try {
-        if (std::current_exception())
-            std::rethrow_exception(std::current_exception());
-    } catch (const std::system_error&) {
-        end(base::ExitCode::kOverLimit, kNoRoom);
-    } catch (const std::bad_alloc&) {
-        end(base::ExitCode::kOverLimit, kNoRoom);
-    } catch (...) {
-    }
-    end(base::ExitCode::kFailure, "error: texgen: a library gave up\n");
-    std::abort();
-}
-
-/// Runs before the libraries' own beginnings: some start threads there, and where they cannot, they end the program.
-void before_libraries(int, char**, char**) {
-    std::set_terminate(end_in_one_line);
-    ::setenv("OPENBLAS_NUM_THREADS", "1", 0); // comes with GDAL; nobody here multiplies matrices
-}
-__attribute__((section(".preinit_array"), used)) void (*const g_before_libraries)(int, char**, char**) = before_libraries;
-
 int fail(base::ExitCode code, const std::string& message) {
     base::log_error(message);
     return static_cast<int>(code);
 }
 
 } // namespace
+
+SWARD_BEFORE_LIBRARIES("texgen");
 
 int main(int argc, char** argv) {
     try {

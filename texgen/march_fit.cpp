@@ -23,7 +23,8 @@ constexpr std::array kElevationsDeg = {3.0, 5.0, 10.0, 20.0, 30.0, 45.0, 60.0, 7
 constexpr std::array kMips = {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 9.0};
 constexpr double kLeast = 0.03, kMost = 6; // of the factor; a solid volume counts its inside too
 constexpr double kDarkest = 0.5;           // factor on the light
-constexpr int kHalvings = 9;
+constexpr int kTries = 10;             // of a fit, at most; three do as a rule
+constexpr double kCloseEnough = 5e-4;  // of found_at's mean
 constexpr int kTruthRays = 12000; // of a view, at most
 constexpr int kMarched = 20;        // of so many true rays one is marched: its noise is an average's already
 const glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
@@ -116,15 +117,24 @@ double radiance_of(const shared::MarchMedium& medium, const shared::GrassSums& g
     return sum / kSuns;
 }
 
+/// Footprint that reads so wide a part of its texture (m): march_width's inverse, which rises.
+double footprint_of(const Case& which, float side, double width) {
+    double low = width, high = width * std::exp2(-static_cast<double>(std::min(shared::kSlabBias, shared::kColumnBias)));
+    for (int i = 0; i < 40; ++i) {
+        const double middle = 0.5 * (low + high);
+        (shared::march_width(which.kind, static_cast<float>(middle), side, static_cast<float>(which.elevation_deg)) < width ? low : high) = middle;
+    }
+    return high;
+}
+
 /// Means of what the march sees with a factor.
 class MarchMean {
 public:
     MarchMean(const MarchData& data, const Case& which, int rays) : data_(data), case_(which), rays_(rays) {
         const double texel = data.medium.size.x / static_cast<double>(shared::kMarchTexels);
         const double softness = shared::kSlabSoftness;
-        footprint_ = which.kind == kMarchColumns
-                         ? texel * std::exp2(which.mip - shared::kColumnBias)
-                         : texel * std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02)) * std::exp2(-static_cast<double>(shared::kSlabBias));
+        footprint_ = footprint_of(which, data.medium.size.x,
+                                  texel * (which.kind == kMarchColumns ? std::exp2(which.mip) : std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02))));
     }
     [[nodiscard]] Marched at(double factor, bool light_too = false) const {
         Marched sum;
@@ -179,8 +189,9 @@ private:
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
             const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
             out.found += lost * found_at(height, 1);
-            shared::march_gather(sums, light, light.to_sun.y,
-                                 {glm::vec3(tint * texel.albedo / whole), shared::march_fibre(medium, step, texel.tangent / whole), height, static_cast<float>(lost)});
+            if (light_too)
+                shared::march_gather(sums, light, light.to_sun.y,
+                                     {glm::vec3(tint * texel.albedo / whole), shared::march_fibre(medium, step, texel.tangent / whole), height, static_cast<float>(lost)});
             through -= lost;
         }
         out.seen = 1 - through;
@@ -207,13 +218,25 @@ double true_mean(const MarchData& data, const HeightCaster& truth, const Case& w
     return sum / rays;
 }
 
-double fit_one(const MarchMean& march, double wanted) {
-    double low = kLeast, high = kMost;
-    for (int i = 0; i < kHalvings; ++i) {
-        const double middle = std::sqrt(low * high);
-        (march.at(middle).found < wanted ? low : high) = middle;
+/// The factor at which as much is found as wanted: secants on its logarithm within a bracket, from `guess` on. What is found grows with it.
+double fit_one(const MarchMean& march, double wanted, double guess) {
+    constexpr double kFirstStep = 0.3;
+    double low = std::log(kLeast), high = std::log(kMost);
+    double x = std::log(guess), before = x, missed_before = 0;
+    for (int i = 0; i < kTries; ++i) {
+        const double missed = march.at(std::exp(x)).found - wanted;
+        (missed < 0 ? low : high) = x;
+        if (std::abs(missed) < kCloseEnough || high - low < 0.01)
+            break;
+        const double rise = i > 0 ? (missed - missed_before) / (x - before) : 0;
+        double next = rise > 1e-6 ? x - missed / rise : x + (missed < 0 ? kFirstStep : -kFirstStep);
+        if (next <= low || next >= high || i > kTries / 2)
+            next = 0.5 * (low + high);
+        before = x;
+        missed_before = missed;
+        x = next;
     }
-    return std::sqrt(low * high);
+    return std::exp(x);
 }
 
 /// A value at x among rising nodes, linear between them and held at both ends.
@@ -247,6 +270,7 @@ std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, i
     // [depth, light][density][elevation][kind][mip]
     constexpr std::size_t kTable = kDensities * kElevations * kKinds;
     std::vector<std::array<double, kMips.size()>> found(2 * kTable);
+    base::Progress progress("the march's correction", kDensities * kElevations);
     parallel_for(kDensities * kElevations, resolve_threads(threads), [&](std::size_t i, int) {
         const double density = grass::kMarchDensities[i / kElevations], elevation = kElevationsDeg[i % kElevations];
         const double wanted = true_mean(data, truth, {0, 0, elevation, density}, true_rays);
@@ -256,13 +280,14 @@ std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, i
                 auto& row = found[i * kKinds + kind];
                 const bool rare = kind != kMarchColumns && (elevation > 75 || kMips[m] > 6); // columns show such views
                 const MarchMean march(data, {static_cast<int>(kind), kMips[m], elevation, density}, marched);
-                row[m] = rare && m > 0 ? row[m - 1] : fit_one(march, wanted);
+                row[m] = rare && m > 0 ? row[m - 1] : fit_one(march, wanted, m > 0 ? row[m - 1] : 1);
                 const Marched seen = march.at(row[m], true);
                 light[kind][m] = seen.light / std::max(seen.seen, 1e-9);
             }
         for (std::size_t kind = 0; kind < kKinds; ++kind) // as bright as the columns' coarsest mip, which the set's far light corrects
             for (std::size_t m = 0; m < kMips.size(); ++m)
                 found[kTable + i * kKinds + kind][m] = std::clamp(light[kMarchColumns].back() / std::max(light[kind][m], 1e-9), kDarkest, 1 / kDarkest);
+        progress.advance();
     });
     std::vector<float> table;
     const auto value = [&](std::size_t which, std::size_t kind, int half, int step) {

@@ -15,6 +15,7 @@
 
 #include "base/error.h"
 #include "texgen/commands.h"
+#include "texgen/usage_error.h"
 
 namespace sward::texgen {
 namespace {
@@ -23,12 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr int kMaxThreads = 1024;
 constexpr int kMaxZstdLevel = 19;
-
-base::Error usage(std::string_view option, std::string_view found, std::string_view expected) {
-    return base::Error(base::ExitCode::kUsage,
-                       fmt::format("{}: found \"{}\", expected {}", option, base::printable(found),
-                                   expected));
-}
 
 /// A whole number of any size that fits; the range of the value is its reader's.
 std::int64_t whole_number(std::string_view option, std::string_view text,
@@ -56,6 +51,8 @@ CLI::Option* declare_path(CLI::App& app, const std::string& name, const std::str
     return declare(app, name, value, help, [=](const std::string& text) {
         if (text.empty() || text.find('\0') != std::string::npos)
             throw usage(shown_name(name), text, "a name");
+        if (text.front() == '-') // an option that stands where the name was forgotten
+            throw usage(shown_name(name), text, fmt::format("a name (./{} for one with a dash)", base::printable(text)));
         take(text);
     });
 }
@@ -352,10 +349,12 @@ Options parse_options(int argc, char** argv) {
     } catch (const CLI::Success& done) { // --version
         o.help = std::string(done.what()) + "\n";
         return o;
-    } catch (const CLI::ArgumentMismatch& problem) { // "--size=": CLI11 speaks of a missing N
-        throw base::Error(base::ExitCode::kUsage, fmt::format("{}: expected a value", base::printable(problem.what(), 200)));
     } catch (const CLI::ParseError& problem) {
-        throw base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
+        throw usage_error(app, problem);
+    } catch (const base::Error&) { // a value, perhaps of an option that there is not
+        if (const auto words = app.remaining(true); std::ranges::any_of(words, is_option))
+            throw usage_error(app, CLI::ExtrasError(words));
+        throw;
     }
     check_bake(app, o);
     if (!o.run)

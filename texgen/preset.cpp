@@ -220,7 +220,7 @@ private:
         for (const Field& field : preset_fields())
             if (field.section == section && field.key == key.str() && stands_in(field, scope))
                 return Reader{file_, field, node}.read({preset_, one});
-        refuse(static_cast<int>(key.source().begin.line), "unknown key", base::printable(key.str()),
+        refuse(static_cast<int>(key.source().begin.line), "unknown key", key.str().empty() ? "\"\"" : base::printable(key.str()),
                fmt::format("a key such as {}", nearest_key(section, key.str(), scope)));
     }
 

@@ -288,6 +288,12 @@ VdbFile::VdbFile(std::span<const std::byte> bytes, std::filesystem::path name)
 }
 VdbFile::~VdbFile() = default;
 
+void VdbFile::check_grids() const {
+    for (std::size_t i = 0; i < reader_->table().size(); ++i)
+        if (const VdbEntry& entry = reader_->table()[i]; !entry.instance && (entry.is_scalar() || entry.is_vector()))
+            (void)reader_->load(static_cast<int>(i));
+}
+
 Volume VdbFile::read_volume(const VolumeQuery& query) const {
     return VolumeReading(*reader_, query).run();
 }

@@ -66,6 +66,9 @@ public:
 
     [[nodiscard]] const std::vector<VdbGridInfo>& grids() const { return infos_; }
 
+    /// Reads every float and vec3 grid to its end and keeps none: throws where one is damaged.
+    void check_grids() const;
+
     /// The fog volume `density` and what stands beside it, `color` or `Cd` for `colour`. Voxels of density 0 are left out, and
     /// with a warning those that are not 0 by rounding alone. Refuses level sets, values below that, non-finite ones, and
     /// transforms other than a scale and a shift. kUsage where `period_m` does not fit.

@@ -180,6 +180,8 @@ SparseGrid VdbReader::load(int index) {
     std::erase_if(grid.meta, [](const VdbMeta& m) { return m.name.starts_with("file_"); }); // of that very file
     grid.transform = read_transform(name);
     read_vdb_tree(cursor_, entry.block_at, packing, grid);
+    if (cursor_.at() != entry.end_at)
+        refuse(name, fmt::format("values that end at byte {}", cursor_.at()), fmt::format("byte {}, as the table of grids says", entry.end_at));
     return grid;
 }
 

@@ -177,6 +177,7 @@ Volume read_volume(const std::filesystem::path& set_directory) {
 
 VolumeInfo inspect_volume(const std::vector<std::byte>& bytes, const std::filesystem::path& name) {
     const VdbFile file(bytes, name);
+    file.check_grids();
     VolumeInfo info;
     for (const VdbGridInfo& grid : file.grids())
         info.grids.push_back(grid.name);

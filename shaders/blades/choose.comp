@@ -108,7 +108,7 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
     float wanted = (length(pose.v1) + length(pose.v2 - pose.v1)) * pixels / frame.pose_band.z;
     bool head = outline.z < 1.0;
     bool unsure = wanted > 7.99 || (!head && wanted > 1.5 && abs(fract(wanted) - 0.5) > 0.49); // how many segments rounding makes
-    if (nearest < 2.0 * kNear_m || unsure) {
+    if (nearest < 2.0 * frame.near_m || unsure) {
         return all_pictures(); // clipped, or long: not worth the trouble
     }
     // The segments' own ends, or of a head's eight every other: both those and ours lie within a quarter of the bulge times the square of our
@@ -126,7 +126,7 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
         vec2 next_place = pixel_of(next);
         float radius = width * reach_of(before, v, outline) + bulge * (v - before) * (v - before);
         vec2 aside = max(abs(place - 0.5 * vec2(frame.clip_layout.yz)), abs(next_place - 0.5 * vec2(frame.clip_layout.yz))) / frame.eye.w;
-        float per_metre = frame.eye.w * sqrt(1.0 + dot(aside, aside)) / max(min(clip.w, next.w) - radius, kNear_m);
+        float per_metre = frame.eye.w * sqrt(1.0 + dot(aside, aside)) / max(min(clip.w, next.w) - radius, frame.near_m);
         vec2 next_ahead = station_extent(next, v, width, pose, outline);
         vec2 reach = head ? vec2(radius * per_metre) : max(ahead, next_ahead);
         mask = pictures_of(Capsule(place, next_place, reach + kSnap_px), mask);

@@ -9,7 +9,7 @@ layout(binding = TEX_DEPTH_PYRAMID) uniform sampler2D depth_pyramid;
 bool occluded(vec3 centre, float radius) {
     vec4 clip = frame.clip_from_world * vec4(centre, 1.0);
     float nearest = clip.w - radius;
-    if (nearest < kNear_m) {
+    if (nearest < frame.near_m) {
         return false;
     }
     vec2 picture = vec2(frame.clip_layout.yz);
@@ -26,5 +26,5 @@ bool occluded(vec3 centre, float radius) {
     ivec2 first = ivec2(low) >> (level + 1), last = ivec2(high) >> (level + 1);
     float farthest = min(min(texelFetch(depth_pyramid, first, level).r, texelFetch(depth_pyramid, last, level).r),
                          min(texelFetch(depth_pyramid, ivec2(first.x, last.y), level).r, texelFetch(depth_pyramid, ivec2(last.x, first.y), level).r));
-    return kNear_m / nearest < farthest;
+    return frame.near_m / nearest < farthest;
 }

@@ -17,7 +17,7 @@ uniform int samples;
 
 // Distance along the view axis, from reversed depth.
 float axial_distance(float depth) {
-    return depth > 0.0 ? kNear_m / depth : 0.0;
+    return depth > 0.0 ? frame.near_m / depth : 0.0;
 }
 
 // All but colour is the first sample's: a mean of tiers is no tier.

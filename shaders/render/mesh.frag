@@ -5,7 +5,7 @@
 
 in vec3 world;
 in vec3 normal;
-uniform vec4 turn;
+uniform float density; // of the grass on it
 uniform vec4 colour; // reflectance; tier
 uniform vec4 bare;   // reflectance where the surface is too steep for grass; least cosine of its slope that grass stands on
 
@@ -16,7 +16,7 @@ void main() {
     vec3 n = normalize(normal + 1e-6 * face);
     n = dot(n, face) < 0.0 ? -n : n;
     bool grows = (gl_FrontFacing ? face.y : -face.y) >= bare.w;
-    vec3 radiance = shade_soil(frame.light, grows ? colour.rgb : bare.rgb, n, grows ? turn.z : 0.0);
+    vec3 radiance = shade_soil(frame.light, grows ? colour.rgb : bare.rgb, n, grows ? density : 0.0);
     vec4 haze = haze_of(frame.light, from_eye);
     write_surface(radiance * haze.a + haze.rgb, vec3(colour.w, 0.0, 0.0), vec3(0.0), n);
 }

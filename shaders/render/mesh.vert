@@ -5,14 +5,13 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
 uniform vec4 place; // of its origin, world; w: scale
-uniform vec4 turn;  // yaw: cosine, sine; density of the grass on it; unused
+uniform vec4 axis_x, axis_y, axis_z; // its own axes in the world's; w: unused
 
 out vec3 world;
 out vec3 normal;
 
-// Yaw 0 looks north (-z), positive to the east: clockwise from above.
 vec3 turned(vec3 v) {
-    return vec3(turn.x * v.x - turn.y * v.z, v.y, turn.y * v.x + turn.x * v.z);
+    return v.x * axis_x.xyz + v.y * axis_y.xyz + v.z * axis_z.xyz;
 }
 
 void main() {

@@ -9,6 +9,7 @@
 #define BIND_WIND_GRID 2       // WindGrid: the fluid that the wind passes work on
 #define BIND_WIND_FIELD 3      // WindField: the ambient wind at a window's rim
 #define BIND_MARCH 5           // MarchMedium: the set as the far field knows it
+#define BIND_FAR_SHARES 6      // FarShares: of a raster scheme
 #define BIND_PHYSICS 4         // BladeStep, WindField: of one step of the blades
 #define BIND_SAMPLES 4         // SampleRound: the pictures that share a choice of blades; beside no physics
 
@@ -98,11 +99,12 @@
 #define TEX_CANOPY_DEPTH 19    // depth of the canopy's upper surface
 #define TEX_CANOPY_GROUND 20   // RGBA16F: slope of the ground under it, density, tint
 #define TEX_CANOPY_AIR 21      // RGBA16F: wind, canopy_sway
-#define TEX_MARCH_LIGHT 26     // R16F array: factors on the march's light by view azimuth, elevation; wind
+#define TEX_MARCH_LIGHT 26     // RGBA16F array: factors on the march's light by view azimuth, elevation; a channel a wind; of a mesh by the sun's height
 #define TEX_SECOND_DEPTH 22    // of a mesh's canopy, likewise: where a ray that has left it comes to another part of it
 #define TEX_SECOND_GROUND 23
 #define TEX_SECOND_AIR 24
-#define TEX_CANOPY_EXIT 25     // depth of the canopy's surface seen from within: where a ray leaves it
+#define TEX_CANOPY_SAMPLES 27   // depth of the canopy's upper surface, a value a sample of the scene
+#define TEX_CANOPY_EXIT 25     // RGBA16F: length of a ray's way through a mesh's canopy and the height where it ends (m); the same of its second part
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list

@@ -12,8 +12,7 @@
 SHARED_BEGIN
 
 SHARED_CONST int kMaxClipLevels = 16;
-SHARED_CONST float kNear_m = 0.05f; // near plane; reversed depth holds near / distance
-SHARED_CONST int kShareSteps = 12; // of view elevation, 7.5 degrees each
+SHARED_CONST float kNear_m = 0.05f; // near plane where a camera names no other
 SHARED_CONST int kClipCells = 128; // posts a side of a clipmap level; memory grows with its square
 
 SHARED_CONST int kMaskNone = 0;    // density by the slope
@@ -32,8 +31,6 @@ struct FrameConstants {
     vec4 handover;    // band from blades to far level 0: start, end (m); width correction: wmin, wspan (pixels)
     vec4 pose_band;   // band in which poses meet: start, end (m); pixels a tessellated segment spans; mean blade width (m)
     vec4 far_bands[kMaxFarLevels]; // level k: start and end of its incoming band, start and end of its outgoing one (m)
-    vec4 shell_share[kShareSteps + 1]; // share of the shells' blades shown, by view elevation; xyzw: far level
-    vec4 slice_share[kShareSteps + 1]; // x: share of the slices likewise
     ivec4 clip_layout;             // levels of the clipmap; width and height of the picture (pixels); kMask*
     vec4 clip[kMaxClipLevels];     // level k: offset of the anchor in its period u, v; 1 / period (1/m); spacing (m)
     GrassAppearance looks[kMaxSpecies];
@@ -42,9 +39,11 @@ struct FrameConstants {
     vec4 ground_colours[2]; // soil, bare rock; a: unused
     vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
+    float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
+    float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 2 * 208 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 64);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 80);
 #endif
 
 SHARED_CONST int kBlockCells = 8;
@@ -75,6 +74,13 @@ struct BlockSample {
     vec4 sway;   // canopy_sway; x, z of where the bend turns an upright blade at kLeanHeight
 };
 
+// Shares of the blades that the raster schemes' families show, by view elevation.
+SHARED_CONST int kShareSteps = 12; // of 7.5 degrees
+struct FarShares {
+    vec4 shells[kShareSteps + 1]; // xyzw: far level
+    vec4 slices[kShareSteps + 1]; // x
+};
+
 // A shell or a slice of one block. 32 bytes.
 struct FarInstance {
     vec4 place;  // rest height (shells) or the plane's own coordinate (slices), world (m); block; cells to draw: first + 16 *
@@ -82,7 +88,7 @@ struct FarInstance {
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus
-static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32);
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32 && sizeof(FarShares) == 2 * 208);
 #endif
 
 SHARED_END

@@ -7,6 +7,7 @@
 layout(std430, binding = BIND_FAR_INSTANCES) readonly buffer Instances { FarInstance instances[]; };
 layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
 layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
+layout(std140, binding = BIND_FAR_SHARES) uniform SharesBlock { FarShares shares; };
 uniform float rows; // of a slice's strip
 
 out vec3 world;
@@ -37,9 +38,9 @@ float family_share(vec3 from_eye, vec2 slope, vec2 bend, int level) {
     float at = asin(clamp(sine, 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
 #ifdef SLICES
-    return mix(frame.slice_share[row].x, frame.slice_share[row + 1].x, at - float(row));
+    return mix(shares.slices[row].x, shares.slices[row + 1].x, at - float(row));
 #else
-    return mix(frame.shell_share[row], frame.shell_share[row + 1], at - float(row))[level];
+    return mix(shares.shells[row], shares.shells[row + 1], at - float(row))[level];
 #endif
 }
 

@@ -6,6 +6,9 @@
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
 #include "shared/march_light.h"
+#if defined(CREST) && !defined(SURFACE)
+#include "shells/crest.glsl"
+#endif
 
 layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities;
 layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres;
@@ -16,13 +19,15 @@ in vec2 ndc;
 #ifdef COUNT
 layout(early_fragment_tests) in; // a shader that writes to memory would run for pixels of other kinds too
 layout(std430, binding = BIND_MARCH_COUNTS) buffer Counts { uint all_steps; uint all_reads; };
-const int kReadsAPixel = 17; // choice and march: canopy 3 each, depths 4, correction 1, factors on light 2, colours 4
+const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, depths 4, colours 4, correction 1; factors on light are a stretch's
 int steps_taken = 0, texels_read = kReadsAPixel;
 #endif
 
 const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
 const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
+const float kBeside = 1e-3;        // of the distance: what is drawn of the ground may be so far from it (m a metre)
+const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent (no pixel differs by more than 3/255)
 const float kOtherDensity = 0.4;  // of the correction's second factors
 
 // What the march has gathered.
@@ -52,9 +57,13 @@ float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     float azimuth = atan(eye.x * sun.y - eye.y * sun.x, dot(eye, sun)) / (2.0 * kPi);
     vec2 size = vec2(textureSize(light_factors, 0));
     vec2 uv = vec2(azimuth + 0.5 / size.x, (elevation * (size.y - 1.0) + 0.5) / size.y);
-    float gust = far_wind_place(frame.wind, wind);
-    float calmer = min(floor(gust), float(kFarWinds - 2));
-    return mix(textureLod(light_factors, vec3(uv, calmer), 0.0).r, textureLod(light_factors, vec3(uv, calmer + 1.0), 0.0).r, gust - calmer);
+    float gust = far_wind_place(frame.wind, wind); // 0..2: one channel for each wind
+#ifdef SURFACE
+    vec3 winds = surface_light_factors(light_factors, uv, to_sun.y);
+#else
+    vec3 winds = textureLod(light_factors, vec3(uv, 0.0), 0.0).rgb;
+#endif
+    return gust < 1.0 ? mix(winds.r, winds.g, gust) : mix(winds.g, winds.b, gust - 1.0);
 }
 
 vec3 texel_place(MarchPlan plan, MarchStep taken) {
@@ -63,18 +72,24 @@ vec3 texel_place(MarchPlan plan, MarchStep taken) {
     return march_texel(plan, taken, vec3(place, float(variant)));
 }
 
-// Mean tangent of the blades at a step, as the wind turns them: read where a pixel tells blades apart, else the layer's.
-vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float mip) {
-    vec4 texel = vec4(0.0);
-    if (taken.mip < kFibresTo) {
-        texel = textureLod(fibres, uv, mip);
-    }
-    return march_turned(path, taken.rest.y, march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0)));
+// Are a step's blades seen well enough to be told apart?
+bool shows_fibres(MarchStep taken, float shown) {
+    return taken.mip < kFibresTo && shown > kLeastShown;
 }
 
-// Share of the blades there that the near tier leaves.
+// Mean tangent of the blades at a step, as the wind turns them: read where they are told apart, else the layer's.
+vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float shown) {
+    vec3 mean = vec3(0.0, medium.layers[taken.layer].x, 0.0);
+    if (shows_fibres(taken, shown)) {
+        vec4 texel = textureLod(fibres, uv, taken.mip - march_base(kind));
+        mean = march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0));
+    }
+    return march_turned(path, taken.rest.y, mean);
+}
+
+// Share of the optical depth there that the near tier leaves.
 float far_share(vec3 world) {
-    float share = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy);
+    float share = march_share(handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy));
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
 }
 
@@ -106,8 +121,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last && mean_of(seen.through) > kMarchEnd; ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         vec3 uv = texel_place(plan, taken);
-        float mip = taken.mip - march_base(kind);
-        vec4 texel = textureLod(densities, uv, mip);
+        vec4 texel = textureLod(densities, uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
@@ -117,19 +131,23 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #ifdef COLUMNS
         albedo *= march_tint(taken.layer, steepness);
 #endif
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, mip), taken.rest.y / frame.patch_grid.w, mean_of(lost)));
+        float shown = mean_of(lost);
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, shown), taken.rest.y / frame.patch_grid.w, shown));
         float before = mean_of(seen.through);
         seen.through -= lost;
         seen.half_way = before > 0.5 && mean_of(seen.through) <= 0.5 ? middle : seen.half_way;
 #ifdef COUNT
         ++steps_taken;
-        texels_read += taken.mip < kFibresTo ? 2 : 1;
+        texels_read += shows_fibres(taken, shown) ? 2 : 1;
 #endif
     }
     vec3 to_eye = to_eye_at(entry, view);
     float level = length(to_eye.xz);
     float fall = max(-path.height.y, 0.0);
     march_stand(seen.grass, light, MarchGround(atan(fall, level) * (180.0 / kPi), rise_at(entry, view), slope), to_eye);
+#ifdef COUNT
+    ++texels_read;
+#endif
     radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(entry.ground.w) *
                light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
     return walk;
@@ -159,8 +177,8 @@ float next_entry(View view, float from, float last, float canopy) {
     return high;
 }
 
-// Where the ray goes on after a stretch; distance kNever: nowhere.
-Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float farthest) {
+// Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands behind.
+Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene) {
     Entry next = entry;
     bool over_it = walk.layer >= kMarchLayers;
     if (over_it && eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
@@ -172,59 +190,126 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     next.height = over_it ? path.bend.w : march_height(path, walk.s);
     next.distance = entry.distance + walk.s;
     if (over_it) {
-        next.distance = next_entry(view, next.distance + 0.1, min(farthest, kHorizon), next.height);
+        float last = min(scene, kHorizon);
+        float from = next.distance + 0.1;
+        next.distance = next_entry(view, from, last, next.height);
+        if (next.distance >= kNever && last < kHorizon) { // it ends on ground that is drawn a little beside where it is looked up
+            vec2 slope = ground_under(frame.eye.xz + view.way.xz * last).xy;
+            float fall = dot(slope, view.way.xz) - view.way.y;
+            float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
+            next.distance = over < next.height + kBeside * last ? max(last - next.height / max(fall, 0.02), from) : kNever;
+        }
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
     next.distance = walk.layer < 0 ? kNever : next.distance;
     return next;
 }
+
+// A ray of some of the pixel's samples.
+struct Ray {
+    View view;
+    Entry entry;
+    vec4 members; // 1: these samples
+};
+
+// The ray of those samples that enter the canopy nearest.
+Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
+    Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
+    ray.members = members_of(view, entries, ray.entry.ground.xy);
+    ray.view = view_through(pixel, ray.members, ndc);
+    ray.entry.distance = dot(ray.members, min(entries, vec4(kFarthest))) / dot(ray.members, vec4(1.0));
+    return ray;
+}
+
+// The ray to march after `ray`: of samples that have not entered yet (`entries`), else of the same through what comes behind.
+Ray ray_after(ivec2 pixel, Ray ray, MarchPath path, MarchWalk walk, vec4 scene, vec4 entries) {
+    if (nearest_of(entries) >= kNever) {
+        vec4 behind = scene * ray.members;
+        ray.entry = entry_after(ray.view, ray.entry, path, walk, max(max(behind.x, behind.y), max(behind.z, behind.w)));
+        return ray;
+    }
+    Ray next = nearest_ray(pixel, view_of(pixel, ndc), entries);
+    next.members = walk.layer < 0 ? next.members : max(next.members, ray.members); // what came through goes on to the same place
+    return next;
+}
 #endif
+
+// Distances along the ray to what each sample shows.
+vec4 scene_of(View view, ivec2 pixel) {
+    vec4 scene;
+    for (int i = 0; i < 4; ++i) { // fewer samples count more than once
+        float depth = texelFetch(scene_depth, pixel, i * samples / 4).r;
+        scene[i] = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
+    }
+    return scene;
+}
+
+// Resolves the pixel: what is seen of the grass, and the scene that comes through it.
+void write_pixel(ivec2 pixel, vec3 radiance, vec4 through) {
+    float left = mean_of(through);
+    if (left <= kMarchEnd) { // what a march to the end would still have found looks as what it has
+        out_color = vec4(radiance / (1.0 - left), 1.0);
+#ifdef COUNT
+        texels_read -= 4;
+#endif
+        return;
+    }
+    out_color = vec4(radiance, 1.0 - left);
+    for (int i = 0; i < 4; ++i) {
+        out_color += 0.25 * through[i] * texelFetch(scene_color, pixel, i * samples / 4);
+    }
+}
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     View view = view_of(pixel, ndc);
-    vec4 scene; // distance along the ray to what each sample shows
-    for (int i = 0; i < 4; ++i) { // fewer samples count more than once
-        float depth = texelFetch(scene_depth, pixel, i * samples / 4).r;
-        scene[i] = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
-    }
+    vec4 scene = scene_of(view, pixel);
     float farthest = max(max(scene.x, scene.y), max(scene.z, scene.w));
     Entry entry = entry_of(view, pixel);
+    vec4 members = vec4(1.0);
     vec3 normal = normal_at(entry);
     vec3 radiance = vec3(0.0);
     vec4 through = vec4(1.0);
     float half_way = kNever;
 #ifdef CREST
-    for (int stretch = 0; stretch < kStretches && entry.distance < farthest && mean_of(through) > kMarchEnd; ++stretch) {
+#ifndef SURFACE
+    vec4 entries = eye_place.x > 0.5 ? vec4(entry.distance) : sample_entries(view, pixel);
+    Ray ray = Ray(view, entry, members);
+    if (entry.distance >= kNever || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
+        ray = nearest_ray(pixel, view, entries);
+    }
+#endif
+    for (int stretch = 0; stretch < kStretches && mean_of(through) > kMarchEnd; ++stretch) {
+#ifndef SURFACE
+        view = ray.view;
+        entry = ray.entry;
+        members = ray.members;
+#endif
+        if (entry.distance >= farthest) {
+            break;
+        }
 #else
     if (entry.distance < farthest) {
 #endif
         Seen seen = Seen(march_nothing(), through, kNever);
         MarchPath path = path_of(view, entry);
         vec3 grass;
-        MarchWalk walk = march(view, entry, path, scene, seen, grass);
+        MarchWalk walk = march(view, entry, path, mix(vec4(-1.0), scene, members), seen, grass);
         half_way = min(half_way, seen.half_way);
         vec4 haze = haze_of(frame.light, view.way * min(seen.half_way, entry.distance + 1.0));
         radiance += grass * haze.a + haze.rgb * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
 #ifdef SURFACE
-        entry = second_entry(view, pixel);
+        entry = entry_behind(view, pixel, entry);
 #else
-        entry = entry_after(view, entry, path, walk, farthest);
+        entries = mix(entries, vec4(kNever), members);
+        ray = ray_after(pixel, ray, path, walk, scene, entries);
 #endif
 #endif
-    }
-    float left = mean_of(through);
-    if (left <= kMarchEnd) { // what a march to the end would still have found looks as what it has
-        radiance /= 1.0 - left;
-        through = vec4(0.0);
     }
     write_first_sample(pixel);
-    out_color = vec4(radiance, 1.0 - mean_of(through));
-    for (int i = 0; i < 4; ++i) {
-        out_color += 0.25 * through[i] * texelFetch(scene_color, pixel, i * samples / 4);
-    }
+    write_pixel(pixel, radiance, through);
     if (through.x < 0.5) {
         out_data.x = min(half_way, farthest) * view.axis;
 #ifdef AOV

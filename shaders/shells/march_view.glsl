@@ -35,7 +35,8 @@ struct Entry {
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
     vec2 place;     // of the entry on its chart (m)
-    vec2 curve_end; // bend of the surface under the ray, half of the height's second derivative (1/m); where the ray leaves the canopy (m from the eye)
+    float bend;     // of the surface under the ray: half of the height's second derivative (1/m)
+    vec2 way_out;   // how far the ray's way through the canopy is, and how high over the ground it ends (m); 0: unknown
 #endif
 };
 
@@ -59,7 +60,7 @@ vec4 ground_under(vec2 xz) {
 // Where the ray comes through the canopy's upper surface from above.
 Entry entry_from_above(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
-    float distance_m = depth > 0.0 ? kNear_m / (depth * view.axis) : kNever;
+    float distance_m = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     vec4 ground = texelFetch(canopy_ground, pixel, 0);
     if (frame.clip_layout.w != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
@@ -70,7 +71,7 @@ Entry entry_from_above(View view, ivec2 pixel) {
 
 Entry entry_of(View view, ivec2 pixel) {
     if (eye_place.x > 0.5) { // the eye stands in the canopy
-        return Entry(kNear_m, eye_place.y, eye_ground, eye_air);
+        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air);
     }
     return entry_from_above(view, pixel);
 }

@@ -3,6 +3,9 @@
 // the grass ends.
 #include "lib/wind.glsl"
 #include "shared/bend.h"
+#include "shared/march_medium.h"
+
+layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
@@ -10,6 +13,7 @@ layout(location = 2) in vec3 curve_squares;  // diagonal of the shape operator, 
 layout(location = 3) in vec3 curve_products; // its yz, zx, xy
 layout(location = 4) in vec2 chart_lift;     // chart; 2 on top; of a wall 1 at its top, 0 on the ground
 uniform vec4 surface_origin;
+uniform float lift; // 1; 0: the ground itself
 
 out vec3 world;
 out vec3 normal;
@@ -17,7 +21,7 @@ out vec3 squares;
 out vec3 products;
 out vec3 wind;
 out float height;
-out float room; // share of its height that the canopy has over a hollow
+out float room; // over its height on level ground: less over a hollow, more on a ridge
 out float on_top; // 1: of the top; a wall's is never above 0
 flat out int chart;
 
@@ -30,6 +34,16 @@ float most_lift() {
     return 0.35 / max(-least, 1e-6);
 }
 
+// On a ridge, what leans aside stands higher over the ground beside its root than over that: by so much of its height, in the mean over the ways it may lean.
+float reached_over(float top) {
+    float upright = clamp(medium.layers[kMarchLayers / 2].x, 0.55, 1.0);
+    float aside = sqrt(1.0 - upright * upright) / upright;
+    float bend = max(0.5 * (curve_squares.x + curve_squares.y + curve_squares.z), 0.0) * top;
+    float away = 1.0 + bend; // from the middle of the curve, in its radii
+    float farther = bend * aside;
+    return bend > 0.0 ? (sqrt(away * away + farther * farther) - away) / bend : 0.0;
+}
+
 void main() {
     vec3 root = position + surface_origin.xyz;
     float canopy = frame.patch_grid.w;
@@ -37,9 +51,9 @@ void main() {
     normal = normal_in;
     wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2
     float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.mean.w).y;
-    height = top * min(chart_lift.y, 1.0);
+    height = lift * top * min(chart_lift.y, 1.0);
     on_top = chart_lift.y - 1.0;
-    room = min(most_lift() / top, 1.0);
+    room = min(most_lift() / top, 1.0) + reached_over(top);
     world = root + normal * (height * room);
     squares = curve_squares;
     products = curve_products;

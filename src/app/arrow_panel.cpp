@@ -26,8 +26,8 @@ constexpr int kCirclePieces = 48;
 constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 150), kIdle = IM_COL32(190, 200, 210, 255), kBlowing = IM_COL32(255, 205, 60, 255),
                 kSelected = IM_COL32(255, 120, 40, 255), kPending = IM_COL32(120, 255, 140, 255);
 
-glm::dvec3 lifted(const Field& field, glm::dvec2 at) {
-    return {at.x, field.height(at.x, at.y) + kAbove_m, at.y};
+glm::dvec3 lifted(const Land& land, glm::dvec2 at) {
+    return {at.x, land.height(at.x, at.y) + kAbove_m, at.y};
 }
 
 ImVec2 as_im(glm::dvec2 v) {
@@ -47,31 +47,31 @@ void draw_path(ImDrawList& list, const Eye& eye, const std::vector<glm::dvec3>& 
     }
 }
 
-void draw_shaft(ImDrawList& list, const Eye& eye, const Field& field, const scene::WindArrow& arrow, ImU32 colour) {
+void draw_shaft(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow, ImU32 colour) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i <= kPieces; ++i)
-        points.push_back(lifted(field, glm::mix(arrow.root, arrow.tip, static_cast<double>(i) / kPieces)));
+        points.push_back(lifted(land, glm::mix(arrow.root, arrow.tip, static_cast<double>(i) / kPieces)));
     draw_path(list, eye, points, colour, 3);
     // The head lies on the ground too; its size is the arrow's, but never more than a few metres.
     const glm::dvec2 along = glm::normalize(arrow.tip - arrow.root), across(-along.y, along.x);
     const double size = std::min(0.25 * glm::distance(arrow.root, arrow.tip), 2.5);
     draw_path(list, eye,
-              {lifted(field, arrow.tip - (along + across * 0.5) * size), lifted(field, arrow.tip),
-               lifted(field, arrow.tip - (along - across * 0.5) * size)},
+              {lifted(land, arrow.tip - (along + across * 0.5) * size), lifted(land, arrow.tip),
+               lifted(land, arrow.tip - (along - across * 0.5) * size)},
               colour, 3);
 }
 
-void draw_circle(ImDrawList& list, const Eye& eye, const Field& field, const scene::WindArrow& arrow, ImU32 colour) {
+void draw_circle(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow, ImU32 colour) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i <= kCirclePieces; ++i) {
         const double angle = 6.283185307 * i / kCirclePieces;
-        points.push_back(lifted(field, arrow.tip + glm::dvec2(std::cos(angle), std::sin(angle)) * arrow.radius_m));
+        points.push_back(lifted(land, arrow.tip + glm::dvec2(std::cos(angle), std::sin(angle)) * arrow.radius_m));
     }
     draw_path(list, eye, points, (colour & 0x00ffffffU) | 0x90000000U, 1.5f);
 }
 
-void draw_point(ImDrawList& list, const Eye& eye, const Field& field, glm::dvec2 at, ImU32 colour, float radius) {
-    if (const auto pixel = eye.pixel(lifted(field, at))) {
+void draw_point(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 at, ImU32 colour, float radius) {
+    if (const auto pixel = eye.pixel(lifted(land, at))) {
         list.AddCircleFilled(as_im(*pixel), radius + 1.5f, kOutline);
         list.AddCircleFilled(as_im(*pixel), radius, colour);
     }
@@ -96,17 +96,17 @@ bool edit_number(scene::ArrowEdit& edit, const char* label, double& value, doubl
 
 } // namespace
 
-bool ArrowPanel::draw(const Eye& eye, const Field& field, double time_s) {
+bool ArrowPanel::draw(const Eye& eye, const Land& land, double time_s) {
     if (!shown) {
         root_.reset();
         dragged_.reset();
         edit_.end();
         return false;
     }
-    take_mouse(eye, field);
+    take_mouse(eye, land);
     draw_inspector(time_s);
     forget_what_is_gone();
-    draw_arrows(eye, field, time_s);
+    draw_arrows(eye, land, time_s);
     const bool changed = told_ != edit_.arrows();
     told_ = edit_.arrows();
     return changed;
@@ -121,14 +121,14 @@ void ArrowPanel::forget_what_is_gone() {
         dragged_.reset();
 }
 
-std::optional<ArrowHandle> ArrowPanel::under_mouse(const Eye& eye, const Field& field) const {
+std::optional<ArrowHandle> ArrowPanel::under_mouse(const Eye& eye, const Land& land) const {
     const ImVec2 mouse = ImGui::GetIO().MousePos;
     std::optional<ArrowHandle> best;
     double least = kGrab_px;
     for (const ArrowEnd end : {ArrowEnd::kTip, ArrowEnd::kRoot})
         for (std::size_t i = 0; i < edit_.arrows().size(); ++i) {
             const ArrowHandle handle{i, end};
-            const auto pixel = eye.pixel(lifted(field, edit_.place(handle)));
+            const auto pixel = eye.pixel(lifted(land, edit_.place(handle)));
             if (!pixel)
                 continue;
             const double away = glm::distance(*pixel, glm::dvec2(mouse.x, mouse.y));
@@ -138,12 +138,12 @@ std::optional<ArrowHandle> ArrowPanel::under_mouse(const Eye& eye, const Field& 
     return best;
 }
 
-void ArrowPanel::take_mouse(const Eye& eye, const Field& field) {
+void ArrowPanel::take_mouse(const Eye& eye, const Land& land) {
     const ImGuiIO& io = ImGui::GetIO();
     cursor_.reset();
-    if (const auto ground = eye.ground_under({io.MousePos.x, io.MousePos.y}, field.height, kReach_m))
+    if (const auto ground = eye.ground_under({io.MousePos.x, io.MousePos.y}, land.height, kReach_m))
         cursor_ = glm::dvec2(ground->x, ground->z);
-    hovered_ = io.WantCaptureMouse ? std::nullopt : under_mouse(eye, field);
+    hovered_ = io.WantCaptureMouse ? std::nullopt : under_mouse(eye, land);
     if (!io.WantCaptureMouse && cursor_ && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
         press(*cursor_, hovered_);
     if (!dragged_)
@@ -219,21 +219,21 @@ void ArrowPanel::save() {
     }
 }
 
-void ArrowPanel::draw_arrows(const Eye& eye, const Field& field, double time_s) const {
+void ArrowPanel::draw_arrows(const Eye& eye, const Land& land, double time_s) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const auto spans = wind::arrow_spans(edit_.arrows());
     for (std::size_t i = 0; i < edit_.arrows().size(); ++i) {
         const scene::WindArrow& arrow = edit_.arrows()[i];
         const bool blowing = time_s >= spans[i].start_s && time_s < spans[i].end_s;
         const ImU32 colour = selected_ && selected_->arrow == i ? kSelected : blowing ? kBlowing : kIdle;
-        draw_circle(list, eye, field, arrow, colour);
-        draw_shaft(list, eye, field, arrow, colour);
+        draw_circle(list, eye, land, arrow, colour);
+        draw_shaft(list, eye, land, arrow, colour);
     }
     for (std::size_t i = 0; i < edit_.arrows().size(); ++i)
         for (const ArrowEnd end : {ArrowEnd::kRoot, ArrowEnd::kTip}) {
             const ArrowHandle handle{i, end};
             const bool hot = hovered_ == handle, chosen = selected_ == handle;
-            draw_point(list, eye, field, edit_.place(handle), chosen ? kSelected : hot ? IM_COL32_WHITE : kIdle,
+            draw_point(list, eye, land, edit_.place(handle), chosen ? kSelected : hot ? IM_COL32_WHITE : kIdle,
                        hot || chosen ? 7.0f : 4.5f);
         }
     if (root_) {
@@ -241,9 +241,9 @@ void ArrowPanel::draw_arrows(const Eye& eye, const Field& field, double time_s) 
             scene::WindArrow sketch;
             sketch.root = *root_;
             sketch.tip = *cursor_;
-            draw_shaft(list, eye, field, sketch, kPending);
+            draw_shaft(list, eye, land, sketch, kPending);
         }
-        draw_point(list, eye, field, *root_, kPending, 6);
+        draw_point(list, eye, land, *root_, kPending, 6);
     }
 }
 

@@ -23,21 +23,21 @@ public:
     void act(const Input& input);
     /// Draws arrows and inspector and takes the mouse, within an ImGui frame. Returns whether the arrows have changed since it
     /// last said so.
-    bool draw(const Eye& eye, const Field& field, double time_s);
+    bool draw(const Eye& eye, const Land& land, double time_s);
     [[nodiscard]] const std::vector<scene::WindArrow>& arrows() const { return edit_.arrows(); }
 
     bool shown = false;
 
 private:
-    void take_mouse(const Eye& eye, const Field& field);
+    void take_mouse(const Eye& eye, const Land& land);
     void press(glm::dvec2 ground, std::optional<scene::ArrowHandle> under);
-    void draw_arrows(const Eye& eye, const Field& field, double time_s) const;
+    void draw_arrows(const Eye& eye, const Land& land, double time_s) const;
     void draw_inspector(double time_s);
     void draw_selected();
     void erase_selected(bool branch);
     void forget_what_is_gone();
     void save();
-    [[nodiscard]] std::optional<scene::ArrowHandle> under_mouse(const Eye& eye, const Field& field) const;
+    [[nodiscard]] std::optional<scene::ArrowHandle> under_mouse(const Eye& eye, const Land& land) const;
 
     scene::ArrowEdit edit_;
     std::vector<scene::WindArrow> told_; ///< what draw() last announced

@@ -29,7 +29,7 @@ struct TimedFrame {
     std::map<std::string, double> ms;
     render::FrameStats stats;
 };
-[[nodiscard]] TimedFrame timed_frame(render::Renderer& renderer, const render::View& view, const render::FrameSettings& settings);
+[[nodiscard]] TimedFrame timed_frame(render::Renderer& renderer, const render::Moment& view, const render::FrameSettings& settings);
 
 /// A count or share, beside what the paper has for it.
 struct BenchFigure {

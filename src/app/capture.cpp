@@ -10,23 +10,23 @@ namespace sward::app {
 
 namespace fs = std::filesystem;
 
-void capture(render::Renderer& renderer, const fs::path& path,
+void capture(const render::ViewState& view, const fs::path& path,
              const std::vector<std::string>& aovs) {
     if (is_linear(path))
         write_linear(path,
-                     renderer.read_aovs(aovs.empty() ? std::vector<std::string>{"color"} : aovs));
+                     view.read_aovs(aovs.empty() ? std::vector<std::string>{"color"} : aovs));
     else
-        write_display(path, renderer.read_picture());
+        write_display(path, view.read_picture());
 }
 
-fs::path capture_screenshot(render::Renderer& renderer) {
+fs::path capture_screenshot(const render::ViewState& view) {
     constexpr int kMost = 9999;
     for (int number = 1; number <= kMost; ++number) {
         const fs::path path = fmt::format("sward-{:04}.{}", number, display_extension());
         std::error_code ignored;
         if (fs::exists(fs::symlink_status(path, ignored)))
             continue;
-        write_display(path, renderer.read_picture());
+        write_display(path, view.read_picture());
         return path;
     }
     throw base::Error(

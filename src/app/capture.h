@@ -5,17 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "render/renderer.h"
+#include "render/view_state.h"
 
 namespace sward::app {
 
 /// Writes the frame just drawn under `path`, by its extension: the display picture, or linear
 /// channels (`aovs`; empty: the colour). Throws Error(kIo).
-void capture(render::Renderer& renderer, const std::filesystem::path& path,
+void capture(const render::ViewState& view, const std::filesystem::path& path,
              const std::vector<std::string>& aovs);
 
 /// Writes the frame just drawn as the next free sward-NNNN picture in the working directory; never
 /// over an older one. Returns its name. Throws Error(kIo).
-[[nodiscard]] std::filesystem::path capture_screenshot(render::Renderer& renderer);
+[[nodiscard]] std::filesystem::path capture_screenshot(const render::ViewState& view);
 
 } // namespace sward::app

@@ -20,7 +20,7 @@ Spread spread_of(std::vector<double> samples) {
     return samples.empty() ? Spread{} : Spread{samples.front(), samples[samples.size() / 2], samples.back()};
 }
 
-TimedFrame timed_frame(render::Renderer& renderer, const render::View& view, const render::FrameSettings& settings) {
+TimedFrame timed_frame(render::Renderer& renderer, const render::Moment& view, const render::FrameSettings& settings) {
     glFinish();
     const auto start = std::chrono::steady_clock::now();
     renderer.draw(view, settings);

@@ -40,7 +40,7 @@ public:
 private:
     render::Renderer renderer_;
     render::FrameSettings settings_;
-    render::View view_;
+    render::Moment view_;
     render::FrameStats stats_;
 };
 
@@ -77,17 +77,20 @@ void schemes(BenchReport& report, const Options& options) {
     const scene::Pose pose = find_camera(scene, "road");
     Driver march(load_world(scene), settings_of(options, render::FarScheme::kMarch));
     Driver planes(load_world(scene), settings_of(options, render::FarScheme::kPlanes));
-    Times marched, drawn;
-    for (Driver* driver : {&march, &planes}) {
+    Driver published(load_world(scene), settings_of(options, render::FarScheme::kPublished));
+    Times marched, drawn, as_published;
+    for (Driver* driver : {&march, &planes, &published}) {
         driver->stand(pose);
         driver->draw();
     }
     for (int i = 0; i < kTurns; ++i) {
         add(marched, march.draw());
         add(drawn, planes.draw());
+        add(as_published, published.draw());
     }
     report_times(report, "driver's view", "march", marched, march.stats().gpu_bytes);
     report_times(report, "driver's view", "planes", drawn, planes.stats().gpu_bytes);
+    report_times(report, "driver's view", "published", as_published, published.stats().gpu_bytes);
     report.checks.push_back({"far: a frame of the march over one of the planes", spread_of(marched["frame"]).min / spread_of(drawn["frame"]).min, kShareOfPlanes});
     report.checks.push_back({"far: selection on the CPU, ms", spread_of(marched["select blocks"]).min + spread_of(marched["select blades"]).min, kMostSelection_ms});
     march.settings().count_steps = true;

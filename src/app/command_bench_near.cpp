@@ -74,7 +74,7 @@ private:
     render::Renderer renderer_;
     glm::ivec2 size_;
     render::FrameSettings settings_;
-    render::View view_;
+    render::Moment view_;
     render::FrameStats stats_;
     int frame_;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -81,19 +82,25 @@ void print_mask(const scene::TerrainSpec& terrain, const scene::DensityMask& mas
 }
 
 void print_scene(const Options& options) {
+    // Everything is read before the first line: a refusal prints nothing else.
     const scene::Scene scene = load_scene(options);
-    row("scene", base::printable(scene.file.native(), 1024));
+    const auto print_name = [&] { row("scene", base::printable(scene.file.native(), 1024)); };
     if (!scene.terrain.surface.empty()) {
         const scene::Mesh mesh = load_mesh(scene.terrain.surface);
+        print_name();
         row("surface", fmt::format("{} triangles, {} vertices", mesh.triangles.size(), mesh.positions.size()));
         return;
     }
     const scene::Heightfield ground = load_elevation(scene.terrain);
+    std::optional<scene::DensityMask> mask;
+    if (!scene.terrain.mask.empty())
+        mask = load_mask(scene.terrain, ground);
+    print_name();
     print_ground(ground);
-    if (scene.terrain.mask.empty())
-        row("mask", "none: grass by the slope");
+    if (mask)
+        print_mask(scene.terrain, *mask);
     else
-        print_mask(scene.terrain, load_mask(scene.terrain, ground));
+        row("mask", "none: grass by the slope");
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "app/camera_file.h"
 #include "app/capture.h"
 #include "app/commands.h"
 #include "app/io.h"
@@ -14,6 +15,8 @@
 #include "base/file.h"
 #include "base/log.h"
 #include "gl/context.h"
+#include "render/access.h"
+#include "render/renderer.h"
 
 namespace sward::app {
 namespace {
@@ -23,6 +26,7 @@ struct Shot {
     scene::Pose camera;
     std::optional<scene::Path> path; ///< of the scene; none: `camera` stands
     std::optional<scene::Pose> lod_eye;
+    std::optional<Camera> matrices; ///< in the place of both
     FrameRange frames;
 };
 
@@ -34,6 +38,8 @@ Shot plan_shot(const Options& options, const scene::Scene& scene) {
     else
         shot.path = find_path(scene, options.path);
     shot.lod_eye = options.lod_eye;
+    if (!options.camera_matrices.empty())
+        shot.matrices = read_camera(options.camera_matrices);
     return shot;
 }
 
@@ -47,19 +53,28 @@ void settle(Shot& shot, const Options& options, const render::World& world) {
         shot.path = find_path(world.scene, options.path);
 }
 
-render::View view_of(const Shot& shot, const Options& options, const render::Renderer& renderer,
-                     int frame) {
-    render::View view;
-    view.time_s = options.time_s + frame * options.step_s;
-    view.frame_index = options.frame_index + static_cast<std::uint32_t>(frame - shot.frames.first);
-    const scene::Pose pose = shot.path ? scene::sample_path(*shot.path, view.time_s) : shot.camera;
-    view.pose = renderer.above_datum(pose);
-    view.lod_pose = view.pose;
-    if (shot.lod_eye) {
-        view.lod_pose = renderer.above_datum(*shot.lod_eye);
-        view.lod_pose.fov_deg = view.pose.fov_deg; // an eye has no lens of its own
-    }
-    return view;
+/// Where one frame is seen from, and when.
+struct Look {
+    Camera camera;
+    std::optional<glm::dvec3> lod_eye; ///< another place that tiers are measured from
+    double time_s = 0;
+};
+
+scene::Pose above_datum(scene::Pose pose, const Field& field) {
+    if (pose.agl)
+        pose.position.y += field.ground_height(pose.position.x, pose.position.z);
+    pose.agl = false;
+    return pose;
+}
+
+Look look_of(const Shot& shot, const Options& options, const Field& field, int frame) {
+    Look look;
+    look.time_s = options.time_s + frame * options.step_s;
+    const scene::Pose pose = above_datum(shot.path ? scene::sample_path(*shot.path, look.time_s) : shot.camera, field);
+    look.camera = shot.matrices ? *shot.matrices : render::camera_of_pose(pose, options.frame.width, options.frame.height);
+    if (shot.lod_eye)
+        look.lod_eye = above_datum(*shot.lod_eye, field).position;
+    return look;
 }
 
 void require_silence(const gl::DebugMessages& messages) {
@@ -71,7 +86,7 @@ void require_silence(const gl::DebugMessages& messages) {
 }
 
 /// One picture and its statistics: both or neither.
-void write_one(const Options& options, render::Renderer& renderer, const std::vector<std::string>& stats) {
+void write_one(const Options& options, const render::ViewState& view, const std::vector<std::string>& stats) {
     std::optional<base::PendingOutput> pending;
     if (!options.stats.empty()) {
         make_parent(options.stats);
@@ -82,7 +97,7 @@ void write_one(const Options& options, render::Renderer& renderer, const std::ve
             throw base::input_error(base::ExitCode::kIo, options.stats, 0, "cannot write", "no room for it", "room for the whole file");
         }
     }
-    capture(renderer, options.output, options.aovs);
+    capture(view, options.output, options.aovs);
     if (pending)
         pending->commit();
 }
@@ -113,7 +128,8 @@ void run_render(const Options& options) {
     render::World world = load_world(scene);
     world.far = options.frame.far;
     settle(shot, options, world);
-    render::Renderer renderer(std::move(world));
+    Field field = render::Access::field_of(std::move(world));
+    View view(field);
 
     const OutputNames names(options);
     const std::string gpu = gl::context_info().renderer;
@@ -121,20 +137,27 @@ void run_render(const Options& options) {
     std::optional<base::Progress> progress;
     if (count > 1)
         progress.emplace("frames", static_cast<std::size_t>(count));
-    render::FrameSettings settings = options.frame;
+    render::FrameSettings& settings = render::Access::settings(view);
+    settings = options.frame;
     settings.aov = !options.aovs.empty();
+    render::Access::inside(field).wait_in_passes = settings.wait_in_passes;
+    const render::ViewState& drawn = render::Access::state(view);
     std::vector<std::string> stats;
     for (int frame = shot.frames.first; frame <= shot.frames.last; ++frame) {
-        const render::View view = view_of(shot, options, renderer, frame);
+        const Look look = look_of(shot, options, field, frame);
+        settings.lod_eye = look.lod_eye;
+        const glm::dvec3 eye = eye_of(look.camera);
         const int times = frame == shot.frames.first ? options.warm + 1 : 1;
-        for (int i = 0; i < times; ++i)
-            renderer.draw(view, settings);
+        for (int i = 0; i < times; ++i) {
+            field.simulate(look.time_s, {&eye, 1}, render::limits_of(settings));
+            view.draw(look.camera, {settings.width, settings.height});
+        }
         if (!options.stats.empty())
-            stats.push_back(stats_json(renderer.stats(), gpu, settings));
+            stats.push_back(stats_json(drawn.stats(), gpu, settings));
         require_silence(messages);
         make_parent(names.name(frame));
         if (options.frames)
-            capture(renderer, names.name(frame), options.aovs);
+            capture(drawn, names.name(frame), options.aovs);
         if (progress)
             progress->advance();
     }
@@ -142,7 +165,7 @@ void run_render(const Options& options) {
     if (options.frames)
         write_sequence_stats(options, stats);
     else
-        write_one(options, renderer, stats);
+        write_one(options, drawn, stats);
 }
 
 } // namespace sward::app

@@ -17,6 +17,8 @@
 #include "app/world_loader.h"
 #include "base/log.h"
 #include "gl/context.h"
+#include "render/access.h"
+#include "render/renderer.h"
 
 namespace sward::app {
 namespace {
@@ -33,9 +35,9 @@ constexpr int kLargestSide = 16384;
 class Flight {
 public:
     Flight(const Options& options, const scene::Scene& scene, const scene::Pose& start, Window& window,
-           render::Renderer& renderer)
-        : options_(options), window_(window), renderer_(renderer), panel_(window.handle()),
-          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(renderer.above_datum(start)),
+           Field& field)
+        : options_(options), window_(window), field_(field), view_(field), panel_(window.handle()),
+          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(above_datum(start)),
           gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
 
     /// Draws until the window is closed, or for options.exit_after frames.
@@ -56,13 +58,19 @@ public:
             advance(input);
             draw(size, static_cast<std::uint32_t>(frame));
             act(input);
-            present(size);
+            present();
         }
     }
 
 private:
     [[nodiscard]] double ground() const {
-        return renderer_.ground_height(pose_.position.x, pose_.position.z);
+        return field_.ground_height(pose_.position.x, pose_.position.z);
+    }
+    [[nodiscard]] scene::Pose above_datum(scene::Pose pose) const {
+        if (pose.agl)
+            pose.position.y += field_.ground_height(pose.position.x, pose.position.z);
+        pose.agl = false;
+        return pose;
     }
 
     void advance(const Input& input) {
@@ -83,14 +91,17 @@ private:
         settings_.height = std::min(size.y, kLargestSide);
         settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
         settings_.most_physics_steps = options_.fixed_step ? 0 : kMostPhysicsSteps;
-        renderer_.draw({pose_, pose_, time_s_, index}, settings_);
+        const Camera camera = render::camera_of_pose(pose_, settings_.width, settings_.height);
+        const glm::dvec3 eye = eye_of(camera);
+        field_.simulate(time_s_, {&eye, 1}, render::limits_of(settings_));
+        render::Access::settings(view_) = settings_;
+        // A window larger than any picture keeps a rim.
+        view_.draw(camera, {settings_.width, settings_.height, 0, 0, std::max(0, size.y - settings_.height)});
         if (index % kFramesBetweenStats == 0)
-            stats_ = renderer_.stats();
+            stats_ = render::Access::state(view_).stats();
     }
 
-    void present(glm::ivec2 size) {
-        // A window larger than any picture keeps a rim.
-        renderer_.present(0, 0, std::max(0, size.y - settings_.height));
+    void present() {
         panel_.draw(
             settings_, running_,
             {stats_, pose_, ground(), controls_.speed_ms(), frame_ms_, time_s_, gpu_, messages_}, [&] { draw_overlays(); });
@@ -100,12 +111,12 @@ private:
     void draw_overlays() {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
         const Eye eye(pose_, {size.x, size.y});
-        const Field field{[&](double x, double z) { return renderer_.ground_height(x, z); },
-                          [&](double x, double z) { return renderer_.wind_at(x, z, time_s_); }};
+        const Land land{[&](double x, double z) { return field_.ground_height(x, z); },
+                          [&](double x, double z) { return field_.wind_at(x, z, time_s_); }};
         if (flow_)
-            draw_flow(eye, field, time_s_);
-        if (arrows_.draw(eye, field, time_s_))
-            renderer_.set_wind_arrows(arrows_.arrows());
+            draw_flow(eye, land, time_s_);
+        if (arrows_.draw(eye, land, time_s_))
+            render::Access::state(field_).sources().set_arrows(arrows_.arrows());
     }
 
     void act(const Input& input) {
@@ -137,14 +148,16 @@ private:
     /// A full disk costs the picture, not the flight.
     void take_screenshot() {
         try {
-            base::log_info("screenshot: " + capture_screenshot(renderer_).string());
+            base::log_info("screenshot: " + capture_screenshot(render::Access::state(view_)).string());
         } catch (const base::Error& error) {
             base::log_error(error.what());
         }
     }
 
     void reload() {
-        messages_ = renderer_.reload_shaders();
+        messages_.clear();
+        render::Access::state(field_).reload(messages_);
+        render::Access::state(view_).reload(messages_);
         for (const std::string& message : messages_)
             base::log_warning(message);
         if (messages_.empty())
@@ -153,7 +166,8 @@ private:
 
     const Options& options_;
     Window& window_;
-    render::Renderer& renderer_;
+    Field& field_;
+    View view_;
     Panel panel_;
     FlyControls controls_;
     ArrowPanel arrows_;
@@ -182,10 +196,10 @@ void run_view(const Options& options) {
     render::World world = load_world(scene);
     world.far = options.frame.far;
     scene::settle_place(start, place_on_earth(world.elevation), "--camera");
-    render::Renderer renderer(std::move(world));
+    Field field = render::Access::field_of(std::move(world));
     window.show();
     {
-        Flight flight(options, scene, start, window, renderer);
+        Flight flight(options, scene, start, window, field);
         flight.run();
     }
     if (messages.count > 0)

@@ -33,16 +33,16 @@ ImU32 colour_of(double speed_ms, double alpha) {
         {static_cast<float>(c.x), static_cast<float>(c.y), static_cast<float>(c.z), static_cast<float>(alpha)});
 }
 
-/// One streak: a path through the present field from `start` on, with pulses that run along it.
-void draw_streak(ImDrawList& list, const Eye& eye, const Field& field, glm::dvec2 start, double spacing_m, double phase) {
+/// One streak: a path through the present land from `start` on, with pulses that run along it.
+void draw_streak(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 start, double spacing_m, double phase) {
     glm::dvec2 at = start;
-    const double first_ms = glm::length(field.wind(at.x, at.y));
+    const double first_ms = glm::length(land.wind(at.x, at.y));
     const double length_m = spacing_m * (kCalmStreak + kStreak * std::min(first_ms / 10, 2.0));
     std::optional<glm::dvec2> before;
     for (int step = 0; step <= kSteps; ++step) {
-        const glm::dvec2 wind = field.wind(at.x, at.y);
+        const glm::dvec2 wind = land.wind(at.x, at.y);
         const double speed = glm::length(wind);
-        const auto pixel = eye.pixel({at.x, field.height(at.x, at.y) + kAbove_m, at.y});
+        const auto pixel = eye.pixel({at.x, land.height(at.x, at.y) + kAbove_m, at.y});
         if (before && pixel) {
             const double along = static_cast<double>(step) / kSteps, pulse = along - phase;
             const double alpha = std::min(1.0, 3 * std::min(along, 1.1 - along)) * (0.45 + 0.55 * std::pow(0.5 + 0.5 * std::cos(6.2832 * pulse), 3.0));
@@ -75,11 +75,11 @@ void draw_scale(ImDrawList& list) {
 
 } // namespace
 
-void draw_flow(const Eye& eye, const Field& field, double time_s) {
+void draw_flow(const Eye& eye, const Land& land, double time_s) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const glm::dvec3 p = eye.position();
     // From high above nothing is near: the rings begin where a spacing is some pixels wide.
-    const double high = std::max(p.y - field.height(p.x, p.z), 1.0);
+    const double high = std::max(p.y - land.height(p.x, p.z), 1.0);
     const double first = kSpacing_m * std::exp2(std::max(0.0, std::floor(std::log2(high / 12))));
     for (int ring = 0; ring < kRings; ++ring) {
         const double spacing = first * std::exp2(ring);
@@ -96,10 +96,10 @@ void draw_flow(const Eye& eye, const Field& field, double time_s) {
                                            static_cast<std::uint64_t>(cell.y + 0x40000000));
                 };
                 const glm::dvec2 start = (glm::dvec2(cell) + glm::dvec2(random(0), random(1))) * spacing;
-                const glm::dvec3 world(start.x, field.height(start.x, start.y) + kAbove_m, start.y);
+                const glm::dvec3 world(start.x, land.height(start.x, start.y) + kAbove_m, start.y);
                 if (!eye.pixel(world))
                     continue;
-                draw_streak(list, eye, field, start, spacing, time_s / kPeriod_s + random(2));
+                draw_streak(list, eye, land, start, spacing, time_s / kPeriod_s + random(2));
             }
     }
     draw_scale(list);

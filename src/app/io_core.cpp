@@ -2,6 +2,7 @@
 #include "app/io.h"
 
 #include "base/error.h"
+#include "scene/core_elevation.h"
 
 namespace sward::app {
 
@@ -15,18 +16,7 @@ std::string format_libraries() {
 }
 
 scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
-    const std::string extension = spec.elevation.extension().string();
-    std::error_code ignored;
-    const bool header = std::filesystem::exists(std::filesystem::path(spec.elevation).replace_extension(".json"), ignored);
-    if (extension == ".hgt")
-        return scene::read_hgt(spec.elevation);
-    if (spec.size_m && spec.height_m && (extension == ".r16" || (extension == ".raw" && !header)))
-        return scene::read_raw16(spec.elevation, *spec.size_m, *spec.height_m);
-    if (extension == ".raw")
-        return scene::read_raw_elevation(spec.elevation);
-    throw base::input_error(ExitCode::kBadInput, spec.elevation, 0, "elevation",
-                            extension.empty() ? "no extension" : extension,
-                            ".hgt or .raw, or .r16 with size_m and height_m (the core build reads no other)");
+    return scene::read_core_elevation(spec);
 }
 
 scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield&) {

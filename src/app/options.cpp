@@ -22,8 +22,8 @@ namespace {
 using render::HandoverMode;
 using render::Tiers;
 
-constexpr std::array<std::pair<std::string_view, render::FarScheme>, 2> kFarSchemes = {
-    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}}};
+constexpr std::array<std::pair<std::string_view, render::FarScheme>, 3> kFarSchemes = {
+    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}, {"published", render::FarScheme::kPublished}}};
 constexpr std::array<std::pair<std::string_view, Tiers>, 4> kTiers = {
     {{"all", Tiers::kAll},
      {"blades", Tiers::kBlades},
@@ -63,6 +63,8 @@ void declare_path(CLI::App& app, const std::string& name, const std::string& val
     declare(app, name, value, help, [=](const std::string& text) {
         if (text.empty() || text.find('\0') != std::string::npos)
             throw option_error(shown, text, "the name of a file");
+        if (text.front() == '-') // an option that stands where the name was forgotten
+            throw option_error(shown, text, fmt::format("the name of a file (./{} for one with a dash)", base::printable(text)));
         *path = text;
     });
 }
@@ -104,7 +106,7 @@ void declare_frame_options(CLI::App& app, Options* o) {
     declare(app, "--exposure", "FACTOR", "default 1", [=](const std::string& text) {
         o->frame.exposure = static_cast<float>(parse_number("--exposure", text, kExposure));
     });
-    declare(app, "--far", "march|planes", "how the far field is drawn; planes: the raster scheme before the march, as a comparison",
+    declare(app, "--far", "march|planes|published", "how the far field is drawn; planes: shells and slices one by one; published: the same in the published shares; both as comparisons",
             [=](const std::string& text) { o->frame.far = parse_choice("--far", text, kFarSchemes); });
     declare(app, "--blades-distance", "METRES", "how far --tiers blades draws; default 200",
             [=](const std::string& text) {
@@ -165,6 +167,15 @@ void declare_render(CLI::App& app, Options* o) {
             throw option_error("--path", text, "a path of the scene");
         o->path = text;
     })->excludes("--camera");
+    declare(app, "--camera-matrices", "FILE",
+            "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], \"clip_from_view\": [16]}",
+            [=](const std::string& text) {
+                if (text.empty() || text.find('\0') != std::string::npos)
+                    throw option_error("--camera-matrices", text, "the name of a file");
+                o->camera_matrices = text;
+            })
+        ->excludes("--camera")
+        ->excludes("--path");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
@@ -227,6 +238,18 @@ std::string one_line(std::string text) {
     return base::printable(text, 300);
 }
 
+bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
+
+/// "--sise" -> ", perhaps --size"; nothing where no option of `app` is near.
+std::string perhaps(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : app.get_options())
+        for (const std::string& name : option->get_lnames())
+            known.push_back("--" + name);
+    const std::string nearest = word.starts_with("--") ? base::nearest_name(word.substr(0, word.find('=')), known) : "";
+    return nearest.empty() ? "" : ", perhaps " + nearest;
+}
+
 /// CLI11's complaint in our form: one line that says what was found and what was expected.
 base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     const auto commands = app.get_subcommands();
@@ -234,7 +257,10 @@ base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     const std::string help =
         commands.empty() ? "`sward --help`" : fmt::format("`sward {} --help`", at.get_name());
     // An argument that nothing takes is worth more than what is missing because of it.
-    if (const auto extras = app.remaining(true); !extras.empty())
+    const auto extras = app.remaining(true);
+    if (const auto option = std::find_if(extras.begin(), extras.end(), is_option); option != extras.end())
+        return {base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what {} lists{}", base::printable(*option), help, perhaps(at, *option))};
+    if (!extras.empty())
         return option_error(at.get_name(), extras.front(), fmt::format("what {} lists", help));
     for (const CLI::Option* option : at.get_options()) {
         if (option->get_expected_max() == 1 && option->count() > 1)
@@ -285,6 +311,10 @@ Options parse_options(int argc, const char* const* argv) {
         return o;
     } catch (const CLI::ParseError& error) {
         throw usage_error(error, app);
+    } catch (const base::Error&) { // a value, perhaps of an option that there is not
+        if (const auto words = app.remaining(true); std::any_of(words.begin(), words.end(), is_option))
+            throw usage_error(CLI::ExtrasError(words), app);
+        throw;
     }
     o.command = view->parsed()     ? Command::kView
                 : render->parsed() ? Command::kRender

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/log.h"
-#include "render/renderer.h"
+#include "render/settings.h"
 #include "scene/scene.h"
 
 namespace sward::app {
@@ -45,6 +45,7 @@ struct Options {
     std::optional<FrameRange> frames;
     std::uint32_t frame_index = 0;
     std::optional<scene::Pose> lod_eye;
+    std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
 
     // bench

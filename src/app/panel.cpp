@@ -13,7 +13,7 @@
 namespace sward::app {
 namespace {
 
-// Order of the enums in render/renderer.h.
+// Order of the enums in render/settings.h.
 constexpr const char* kTierNames = "all\0blades\0shells\0reference\0";
 constexpr const char* kHandoverNames = "rank (ships)\0off: both tiers whole\0hard switch\0fade\0";
 constexpr std::array<const char*, 5> kMotion = {

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "render/renderer.h"
+#include "render/settings.h"
+#include "scene/scene.h"
 
 struct GLFWwindow;
 

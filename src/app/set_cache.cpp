@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 using base::ExitCode;
 
 constexpr std::uint64_t kPresetLimit = std::uint64_t{1} << 20;
+constexpr std::uint64_t kProgramLimit = std::uint64_t{1} << 30, kNoteLimit = 256;
 
 /// One baker at a time: a second process waits and then finds the set. Held until the end of the
 /// scope.
@@ -52,12 +53,27 @@ private:
     int fd_;
 };
 
-/// Baked by an older texgen than the one beside us: its picture may differ from a cold start's.
+/// The texgen beside us, by its content: clocks may be wrong. Empty where it cannot be read; baking will say why.
+std::string baker() {
+    try {
+        return base::sha256_hex(base::read_file(texgen_program(), kProgramLimit));
+    } catch (const base::Error&) {
+        return {};
+    }
+}
+
+/// Where the cache notes which texgen baked a set.
+fs::path baker_note(const fs::path& set) {
+    return fs::path(set) += ".texgen";
+}
+
+/// Baked by another texgen than the one beside us: its picture may differ from a cold start's.
 bool is_outdated(const fs::path& set) {
-    std::error_code a, b;
-    const auto baked = fs::last_write_time(set / "set.json", a);
-    const auto texgen = fs::last_write_time(texgen_program(), b);
-    return !a && !b && baked < texgen;
+    try {
+        return base::read_text(baker_note(set), kNoteLimit) != baker();
+    } catch (const base::Error&) {
+        return true;
+    }
 }
 
 /// Whether a preset sets anything: a line with a key.
@@ -133,8 +149,10 @@ grass::GrassSet load_grass(const scene::Scene& scene) {
     std::error_code ignored;
     if (sets_nothing(text))
         base::log_warning(fmt::format("{}: sets nothing; the default meadow is baked", base::printable(place.path.native(), 1024)));
+    fs::remove(baker_note(set), ignored);
     fs::remove_all(set, ignored); // ours alone, and nothing in it can be trusted
     bake(place.path, set);
+    base::write_file_atomic(baker_note(set), baker());
     return grass::read_grass_set(set);
 }
 

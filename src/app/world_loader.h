@@ -5,7 +5,7 @@
 #include <map>
 
 #include "app/options.h"
-#include "render/renderer.h"
+#include "render/world.h"
 
 namespace sward::app {
 

@@ -100,6 +100,11 @@ Header read_header(const fs::path& path, Words& words) {
 
 } // namespace
 
+bool is_ascii_grid(std::span<const std::byte> head) {
+    constexpr std::string_view kFirst = "ncols";
+    return head.size() > kFirst.size() && lower({reinterpret_cast<const char*>(head.data()), kFirst.size()}) == kFirst;
+}
+
 std::vector<float> read_ascii_grid(const fs::path& path, int width, int height) {
     const std::string text = base::read_text(path, kMostFileBytes);
     Words words(text);

@@ -20,7 +20,7 @@ namespace sward::assets {
 /// NaN, all nodata, fewer than 2 x 2 posts; kOverLimit over docs/limits. The message names the file.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 
-/// Density mask of a scene: PNG, TIFF, EXR or JPEG; one channel, 0..1, or with TerrainSpec::classes integer landcover classes, of
+/// Density mask of a scene: PNG, TIFF, EXR, JPEG or an ASCII grid; one channel, 0..1, or with TerrainSpec::classes integer landcover classes, of
 /// which one that is not listed has density 0. A file with a place on Earth is laid where it belongs in the frame of `ground`,
 /// area by area; any other is spread over all of it. Density is 0 where the file has no value. Throws like load_elevation.
 [[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground);

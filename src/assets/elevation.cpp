@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -21,6 +22,7 @@ namespace fs = std::filesystem;
 
 base::Error bad(const fs::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 

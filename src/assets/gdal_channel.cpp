@@ -7,18 +7,21 @@
 
 #include <fmt/format.h>
 
+#include "assets/ascii_grid.h"
 #include "assets/gdal_scope.h"
 #include "assets/image_file.h"
 #include "assets/limits.h"
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
 
-constexpr std::array<const char*, 4> kDrivers = {"PNG", "GTiff", "JPEG", nullptr};
+constexpr std::array<const char*, 5> kDrivers = {"PNG", "GTiff", "JPEG", "AAIGrid", nullptr};
 
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
@@ -62,9 +65,14 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
     GDALRasterBandH band = choose_band(dataset.get(), path, std::max(request.band, 1), "mask");
     check_size(path, channel.width, channel.height, 1, sizeof(float), std::filesystem::file_size(path), request.least_side);
     const bool classes = request.palette == Palette::kIndices;
-    channel.full_scale = full_scale_of(band, path, classes);
-    gdal.read(band, path, channel.values);
-    const std::vector<std::uint8_t> valid = gdal.read_valid(band, path, channel.values);
+    std::vector<std::uint8_t> valid;
+    if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "AAIGrid") {
+        channel.values = read_ascii_grid(path, channel.width, channel.height); // GDAL reads garbage as 0
+    } else {
+        channel.full_scale = full_scale_of(band, path, classes);
+        gdal.read(band, path, channel.values);
+        valid = gdal.read_valid(band, path, channel.values);
+    }
     for (std::size_t i = 0; i < valid.size(); ++i)
         if (valid[i] == 0)
             channel.values[i] = std::numeric_limits<float>::quiet_NaN();

@@ -14,6 +14,7 @@
 #include "assets/limits.h"
 #include "assets/units.h"
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -29,6 +30,7 @@ constexpr std::array<const char*, 5> kDrivers = {"GTiff", "AAIGrid", "DTED", "US
 
 base::Error bad(const fs::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(ExitCode::kBadInput, path, 0, what, found, expected);
 }
 

@@ -16,6 +16,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -57,6 +58,7 @@ GdalScope::~GdalScope() {
 }
 
 std::string GdalScope::error(const char* otherwise) {
+    base::refuse_if_starved();
     return std::exchange(error_, {}).value_or(otherwise);
 }
 

@@ -35,7 +35,7 @@ public:
     /// pixel has one. `values` as `read` gave them.
     [[nodiscard]] std::vector<std::uint8_t> read_valid(GDALRasterBandH band, const std::filesystem::path& path,
                                                        const std::vector<float>& values);
-    /// The first error since the last call, or `otherwise`.
+    /// The first error since the last call, or `otherwise`. Throws where memory or handles ran out: then that is the reason.
     [[nodiscard]] std::string error(const char* otherwise);
 
 private:

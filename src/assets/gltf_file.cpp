@@ -82,6 +82,7 @@ private:
         const json document = json::parse(text, nullptr, false);
         if (!document.is_object())
             refuse("file", "no JSON object", "glTF 2.0");
+        check_version(document);
         if (const auto required = document.find("extensionsRequired"); required != document.end() && !required->empty())
             refuse("extensionsRequired", base::printable(required->dump(-1, ' ', true, json::error_handler_t::replace)),
                    "none (no extension is read, Draco, meshopt and KTX2 included)");
@@ -91,19 +92,48 @@ private:
         std::uint64_t sum = 0;
         for (const json& buffer : *buffers) {
             const auto uri = buffer.is_object() ? buffer.find("uri") : buffer.end();
+            if (!binary_ && buffer.is_object() && uri == buffer.end())
+                refuse("buffer's URI", "none", "a file beside the glTF, or data");
             if (!buffer.is_object() || uri == buffer.end() || !uri->is_string())
                 continue; // the binary chunk
             const auto name = uri->get<std::string>();
-            if (name.starts_with("data:"))
+            if (name.starts_with("data:")) {
+                check_data(name);
                 continue; // as long as the text that holds it
+            }
             const std::string decoded = decode(name);
             if (buffers_.contains(decoded))
                 continue;
-            Bytes data = base::read_file(local_file(decoded), kMostBuffer);
+            Bytes data = read_buffer(decoded);
             sum += data.size();
             if (sum > kMostBuffers)
                 refuse("buffers", fmt::format("{} bytes", sum), fmt::format("at most {}", kMostBuffers), ExitCode::kOverLimit);
             buffers_.emplace(decoded, std::move(data));
+        }
+    }
+
+    void check_version(const json& document) const {
+        const auto asset = document.find("asset");
+        if (asset == document.end() || !asset->is_object() || !asset->contains("version"))
+            return; // tinygltf says so
+        const json& version = (*asset)["version"];
+        if (!version.is_string() || !version.get<std::string>().starts_with("2."))
+            refuse("asset.version", base::printable(version.dump(-1, ' ', true, json::error_handler_t::replace)), "\"2.0\"");
+    }
+
+    void check_data(const std::string& uri) const {
+        for (const char* kind : {"data:application/octet-stream;base64,", "data:application/gltf-buffer;base64,"})
+            if (uri.starts_with(kind))
+                return;
+        refuse("buffer's URI", base::printable(uri, 60), "data:application/octet-stream;base64,...");
+    }
+
+    Bytes read_buffer(const std::string& name) const {
+        const fs::path file = local_file(name);
+        try {
+            return base::read_file(file, kMostBuffer);
+        } catch (const base::Error& error) {
+            throw base::Error(error.code(), fmt::format("{}: buffer {}", base::printable(path_.native(), 1024), error.what()));
         }
     }
 
@@ -129,7 +159,7 @@ private:
 
     /// The file that a URI names, if it may be read.
     fs::path local_file(const std::string& uri) const {
-        const auto reject = [&](const char* expected) { refuse("buffer's URI", base::printable(uri), expected); };
+        const auto reject = [&](const char* expected) { refuse("buffer's URI", uri.empty() ? "\"\"" : base::printable(uri), expected); };
         if (uri.empty() || uri.size() > 1024 || uri.find('\0') != std::string::npos || uri.find('\\') != std::string::npos)
             reject("the name of a file");
         if (uri.find(':') != std::string::npos || uri.front() == '/')

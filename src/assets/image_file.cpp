@@ -13,10 +13,12 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "assets/ascii_grid.h"
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -31,6 +33,7 @@ bool starts_with(std::span<const std::byte> head, std::initializer_list<int> mag
 
 base::Error bad(const std::filesystem::path& path, std::string_view what, std::string_view found,
                 std::string_view expected) {
+    base::refuse_if_starved();
     return base::input_error(ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
@@ -169,9 +172,10 @@ void check_png_chunks(const std::filesystem::path& path) {
 }
 
 Channel read_channel(const std::filesystem::path& path, const ChannelRequest& request) {
-    const Format format = format_of(base::read_head(path, 16)); // refuses what is no regular file
-    if (format == Format::kUnknown)
-        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR or JPEG");
+    const std::vector<std::byte> head = base::read_head(path, 16); // refuses what is no regular file
+    const Format format = format_of(head);
+    if (format == Format::kUnknown && !is_ascii_grid(head))
+        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR, JPEG or an ASCII grid");
     if (std::filesystem::file_size(path) > kMostFileBytes)
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
                                 fmt::format("{} bytes", std::filesystem::file_size(path)),

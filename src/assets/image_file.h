@@ -39,7 +39,7 @@ struct ChannelRequest {
     const scene::Georeference* frame = nullptr; ///< of the terrain, to place the picture in
 };
 
-/// Reads PNG, TIFF, EXR or JPEG. Throws base::Error: kIo, kBadInput, kOverLimit.
+/// Reads PNG, TIFF, EXR, JPEG or an ASCII grid. Throws base::Error: kIo, kBadInput, kOverLimit.
 [[nodiscard]] Channel read_channel(const std::filesystem::path& path, const ChannelRequest& request);
 
 /// The two readers behind it: EXR through OpenImageIO, the rest through GDAL, whose drivers keep

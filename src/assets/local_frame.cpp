@@ -11,6 +11,7 @@
 #include "assets/gdal_raster.h"
 #include "assets/limits.h"
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -25,6 +26,7 @@ constexpr double kRim =
 
 base::Error bad(const fs::path& path, std::string_view what, const std::string& found,
                 std::string_view expected, base::ExitCode code = base::ExitCode::kBadInput) {
+    base::refuse_if_starved();
     return base::input_error(code, path, 0, what, found, expected);
 }
 

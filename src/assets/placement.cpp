@@ -16,6 +16,7 @@
 #include "assets/assets.h"
 #include "assets/gdal_scope.h"
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::assets {
 namespace {
@@ -27,6 +28,7 @@ constexpr double kLinearError = 0.02; // posts, in the middle of such a cell
 constexpr double kSeam = 1000;        // posts between neighbours: the two ends of a raster that goes around the Earth
 
 base::Error bad(const fs::path& path, std::string_view what, std::string_view found, std::string_view expected) {
+    base::refuse_if_starved(); // PROJ without its database knows no CRS
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
@@ -225,6 +227,8 @@ glm::dvec2 local_place(const scene::Georeference& frame, double latitude_deg, do
 std::unique_ptr<Placement> place_raster(GDALDatasetH dataset, const fs::path& path, const scene::Georeference* frame) {
     std::array<double, 6> affine{};
     OGRSpatialReferenceH srs = GDALGetSpatialRef(dataset);
+    if (!srs)
+        base::refuse_if_starved(); // a reference that cannot be looked up is none to GDAL
     if (!srs || GDALGetGeoTransform(dataset, affine.data()) != CE_None || OSRIsLocal(srs))
         return nullptr;
     if (!OSRIsGeographic(srs) && !OSRIsProjected(srs))

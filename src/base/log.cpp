@@ -7,12 +7,14 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
+#include <utility>
 
 #include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "sward/log.h"
 
 namespace sward::base {
 namespace {
@@ -26,7 +28,8 @@ constexpr std::size_t kNarrowestBar = 4;
 constexpr std::size_t kUsualColumns = 80;
 
 std::atomic<Verbosity> g_verbosity{Verbosity::kNormal};
-std::mutex g_mutex; // guards stderr and g_bar
+std::mutex g_mutex; // guards stderr, g_bar and g_sink
+LogSink g_sink;     // a host's, or empty
 std::string g_bar;  // the bar that stands on the terminal's last line, or empty
 
 /// Plain write(2): no buffer that a crash could lose, no locale.
@@ -41,9 +44,14 @@ void write_stderr(std::string_view text) {
     }
 }
 
-void write_line(std::string_view prefix, std::string_view message) {
-    const std::string line = fmt::format("{}{}\n", prefix, printable(message, kMessageLimit));
+void write_line(LogLevel level, std::string_view prefix, std::string_view message) {
+    const std::string text = printable(message, kMessageLimit);
     const std::lock_guard lock(g_mutex);
+    if (g_sink) {
+        g_sink(level, text);
+        return;
+    }
+    const std::string line = fmt::format("{}{}\n", prefix, text);
     write_stderr(g_bar.empty() ? line : "\r\x1b[K" + line + g_bar);
 }
 
@@ -51,6 +59,11 @@ std::size_t terminal_columns() {
     winsize size{};
     return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col
                                                                              : kUsualColumns;
+}
+
+bool has_sink() {
+    const std::lock_guard lock(g_mutex);
+    return static_cast<bool>(g_sink);
 }
 
 /// "12 s", "3 min 20 s", "1 h 5 min".
@@ -93,21 +106,21 @@ Verbosity verbosity() {
 }
 
 void log_error(std::string_view message) {
-    write_line("error: ", message);
+    write_line(LogLevel::kError, "error: ", message);
 }
 
 void log_warning(std::string_view message) {
-    write_line("warning: ", message);
+    write_line(LogLevel::kWarning, "warning: ", message);
 }
 
 void log_info(std::string_view message) {
     if (verbosity() != Verbosity::kQuiet)
-        write_line("", message);
+        write_line(LogLevel::kInfo, "", message);
 }
 
 void log_debug(std::string_view message) {
-    if (verbosity() == Verbosity::kVerbose)
-        write_line("", message);
+    if (verbosity() == Verbosity::kVerbose || has_sink())
+        write_line(LogLevel::kDebug, "", message);
 }
 
 struct Progress::State {
@@ -143,7 +156,7 @@ void Progress::State::tell_tenths() {
 }
 
 Progress::Progress(std::string title, std::size_t total) : state_(nullptr) {
-    if (verbosity() == Verbosity::kQuiet || total == 0)
+    if (verbosity() == Verbosity::kQuiet || total == 0 || has_sink()) // a host shows its own
         return;
     state_ = new State;
     state_->title = printable(title);
@@ -178,3 +191,12 @@ void Progress::advance(std::size_t steps) {
 }
 
 } // namespace sward::base
+
+namespace sward {
+
+void set_log(LogSink sink) {
+    const std::lock_guard lock(base::g_mutex);
+    base::g_sink = std::move(sink);
+}
+
+} // namespace sward

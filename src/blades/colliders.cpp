@@ -70,16 +70,31 @@ void each_patch(const Pages& pages, double side_m, const Box& box, Found found) 
 
 Colliders::Colliders(const scene::Scene& scene, const std::map<std::filesystem::path, scene::SphereSet>& packed, Ground ground)
     : file_(scene.file.string()), paths_(scene.paths), ground_(std::move(ground)) {
-    for (const scene::ObjectSpec& object : scene.objects) {
+    for (std::size_t number = 0; number < scene.objects.size(); ++number) {
+        const scene::ObjectSpec& object = scene.objects[number];
         if (!object.collides) {
             continue;
         }
+        const std::size_t before = bodies_.size();
         const auto body = packed.find(object.mesh);
         if (object.kind != "sphere" && body != packed.end()) {
             add_body(object, body->second.spheres);
         } else if (object.kind == "sphere") {
             const glm::vec4 whole(0, 0, 0, static_cast<float>(object.radius_m));
             add_body(object, {&whole, 1});
+        }
+        if (bodies_.size() > before) {
+            bodies_.back().number = number;
+        }
+    }
+}
+
+void Colliders::set_body(std::size_t object, const glm::dmat4& world_from_body, double time_s) {
+    for (Body& body : bodies_) {
+        if (body.number == object) {
+            const bool moves = body.placed && body.placed->now_s < time_s;
+            body.placed = moves ? Placed{body.placed->now, world_from_body, body.placed->now_s, time_s}
+                                : Placed{world_from_body, world_from_body, time_s, time_s};
         }
     }
 }
@@ -88,10 +103,15 @@ void Colliders::add_body(const scene::ObjectSpec& object, std::span<const glm::v
     for (const glm::vec4& sphere : spheres) {
         check_sphere(object.position + glm::dvec3(sphere), sphere.w, fmt::format("{}: [[object]] {}", file_, object.kind));
     }
-    bodies_.push_back({object, {spheres.begin(), spheres.end()}});
+    bodies_.push_back({object, {spheres.begin(), spheres.end()}, ~std::size_t{0}, {}});
 }
 
 glm::dmat4 Colliders::frame(const Body& body, double time_s) const {
+    if (body.placed) { // a step turns so little that the straight line between two turns is one
+        const double span = body.placed->now_s - body.placed->before_s;
+        const double share = span > 0 ? glm::clamp((time_s - body.placed->before_s) / span, 0.0, 1.0) : 1.0;
+        return body.placed->before * (1 - share) + body.placed->now * share;
+    }
     scene::Pose pose = scene::object_pose(body.object, paths_, time_s);
     if (pose.agl) {
         pose.position.y += ground_(pose.position.x, pose.position.z);

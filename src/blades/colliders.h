@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,15 +49,25 @@ public:
     /// since its time. Throws base::Error(kBadInput) for a radius that is not above 0 or a place that is not finite; the old ones stay.
     void set_host_spheres(std::vector<HostSphere> spheres, double time_s);
 
+    /// Where the scene's object of this number stands from now on, at `time_s`: its own frame (x right, y up, z back) to the world. It came from
+    /// where the call before had put it, in a straight line; with the first one it comes from nowhere. Of an object that grass does not feel: nothing.
+    void set_body(std::size_t object, const glm::dmat4& world_from_body, double time_s);
+
     /// All of them in the step that ends at `time_s`.
     [[nodiscard]] std::vector<MovingSphere> at(double time_s, double step_s) const;
     /// Whether there may be any, at any time.
     [[nodiscard]] bool any() const { return !bodies_.empty() || !now_.empty(); }
 
 private:
+    struct Placed {
+        glm::dmat4 before{1}, now{1};
+        double before_s = 0, now_s = 0;
+    };
     struct Body {
         scene::ObjectSpec object;
         std::vector<glm::vec4> spheres;
+        std::size_t number = 0; ///< of the object in its scene
+        std::optional<Placed> placed; ///< by the host
     };
     /// Where a body's own frame is: x right, y up, z back, and its origin.
     [[nodiscard]] glm::dmat4 frame(const Body& body, double time_s) const;

@@ -68,20 +68,27 @@ Pages::Pages(const grass::GrassSet& set, Settings settings)
         return;
     }
     const auto across = static_cast<std::size_t>(2 * std::ceil(settings.radius_m / side_m_) + 1);
-    slots_.resize(std::min(across * across, settings.most_bytes / page_bytes));
+    slots_.resize(std::min(across * across * static_cast<std::size_t>(std::max(settings.eyes, 1)), settings.most_bytes / page_bytes));
 }
 
-std::vector<Pages::Wish> Pages::wishes(const terrain::Surface& surface, glm::dvec3 eye) const {
-    std::vector<Wish> out;
-    const glm::dvec2 flat(eye.x, eye.z);
-    const glm::ivec2 low(glm::floor((flat - settings_.radius_m) / side_m_)), high(glm::floor((flat + settings_.radius_m) / side_m_));
-    for (int z = low.y; z <= high.y; ++z) {
-        for (int x = low.x; x <= high.x; ++x) {
-            const double nearest = nearest_of(surface, eye, glm::dvec2(x, z) * side_m_, side_m_);
-            if (nearest < settings_.radius_m) {
-                out.push_back({{x, z}, nearest});
+std::vector<Pages::Wish> Pages::wishes(const terrain::Surface& surface, std::span<const glm::dvec3> eyes) const {
+    std::map<std::pair<int, int>, double> near; // z, x: distance to the nearest eye
+    for (const glm::dvec3& eye : eyes) {
+        const glm::dvec2 flat(eye.x, eye.z);
+        const glm::ivec2 low(glm::floor((flat - settings_.radius_m) / side_m_)), high(glm::floor((flat + settings_.radius_m) / side_m_));
+        for (int z = low.y; z <= high.y; ++z) {
+            for (int x = low.x; x <= high.x; ++x) {
+                const double nearest = nearest_of(surface, eye, glm::dvec2(x, z) * side_m_, side_m_);
+                if (nearest < settings_.radius_m) {
+                    double& least = near.try_emplace({z, x}, nearest).first->second;
+                    least = std::min(least, nearest);
+                }
             }
         }
+    }
+    std::vector<Wish> out;
+    for (const auto& [place, nearest] : near) {
+        out.push_back({{place.second, place.first}, nearest});
     }
     std::stable_sort(out.begin(), out.end(), [](const Wish& a, const Wish& b) { return a.nearest < b.nearest; });
     return out;
@@ -102,13 +109,13 @@ void Pages::open(int slot, glm::ivec2 tile, const terrain::Surface& surface) {
     fresh_.push_back(slot);
 }
 
-void Pages::update(const terrain::Surface& surface, glm::dvec3 eye) {
+void Pages::update(const terrain::Surface& surface, std::span<const glm::dvec3> eyes) {
     fresh_.clear();
     reach_m_ = 0;
     if (slots_.empty()) {
         return;
     }
-    auto wanted = wishes(surface, eye);
+    auto wanted = wishes(surface, eyes);
     reach_m_ = settings_.radius_m;
     if (wanted.size() > slots_.size()) {
         reach_m_ = wanted[slots_.size()].nearest;

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,7 @@ public:
     struct Settings {
         double radius_m = 8;                  ///< tiles nearer than this have a page; memory and time grow with its square
         std::size_t most_bytes = 64ull << 20; ///< of all states, 16 a blade; when they are spent the farthest tiles go without
+        int eyes = 1;                         ///< that there is room for, wherever they are
     };
     struct Page {
         bool used = false;
@@ -41,8 +43,9 @@ public:
 
     Pages(const grass::GrassSet& set, Settings settings);
 
-    /// Pages in and out for an eye (world metres, y above the datum). A tile that keeps its page keeps its slot.
-    void update(const terrain::Surface& surface, glm::dvec3 eye);
+    /// Pages in and out for the tiles near any of the eyes (world metres, y above the datum). A tile that keeps its page keeps its slot.
+    void update(const terrain::Surface& surface, std::span<const glm::dvec3> eyes);
+    void update(const terrain::Surface& surface, glm::dvec3 eye) { update(surface, {&eye, 1}); }
     /// Drops all.
     void clear();
 
@@ -51,7 +54,7 @@ public:
     [[nodiscard]] const std::vector<Page>& slots() const { return slots_; }
     /// Slots that the last update gave to tiles without one.
     [[nodiscard]] const std::vector<int>& fresh() const { return fresh_; }
-    /// Every blade nearer than this to the last update's eye has a page (m).
+    /// Every blade nearer than this to one of the last update's eyes has a page (m).
     [[nodiscard]] double reach_m() const { return reach_m_; }
     [[nodiscard]] const MortonOrder& order() const { return order_; }
     [[nodiscard]] std::size_t used() const { return slot_of_.size(); }
@@ -61,7 +64,7 @@ private:
         glm::ivec2 tile;
         double nearest;
     };
-    [[nodiscard]] std::vector<Wish> wishes(const terrain::Surface& surface, glm::dvec3 eye) const;
+    [[nodiscard]] std::vector<Wish> wishes(const terrain::Surface& surface, std::span<const glm::dvec3> eyes) const;
     void open(int slot, glm::ivec2 tile, const terrain::Surface& surface);
 
     Settings settings_;

@@ -79,7 +79,7 @@ Simulation::Simulation(const grass::GrassSet& set, double response, Settings set
 }
 
 void Simulation::page(const Inputs& inputs) {
-    pages_.update(inputs.surface, inputs.eye);
+    pages_.update(inputs.surface, inputs.eyes());
     pass_.place(pages_, side_m_, inputs.anchor);
 }
 

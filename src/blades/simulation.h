@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "blades/colliders.h"
 #include "blades/pages.h"
@@ -32,11 +34,18 @@ public:
         wind::Wind& wind;
         const terrain::Surface& surface;
         const Colliders& colliders;
-        glm::dvec3 eye{0};       ///< world metres, y above the datum
+        glm::dvec3 eye{0};       ///< world metres, y above the datum; the wind's window stands around it
         glm::dvec3 anchor{0};    ///< of the bound frame constants (world metres)
         int most_steps = 0;      ///< in this call, 0: any number; those before the last ones are then left out
         int most_wind_steps = 0; ///< Wind::advance
         gl::PassTimers* timers = nullptr; ///< if any, gets the passes "wind" and "physics"
+        std::span<const glm::dvec3> other_eyes = {}; ///< blades live around them too
+
+        [[nodiscard]] std::vector<glm::dvec3> eyes() const {
+            std::vector<glm::dvec3> all(other_eyes.begin(), other_eyes.end());
+            all.insert(all.begin(), eye);
+            return all;
+        }
     };
     /// Pages in and out, and whole steps up to `time_s`; an earlier time begins anew. The wind then stands at `time_s`, and is bound.
     /// Before: frame constants and clipmap are bound. Throws as Wind::advance does.
@@ -45,7 +54,7 @@ public:
     [[nodiscard]] virtual PhysicsPass& pass() = 0;
     [[nodiscard]] virtual const PhysicsPass& pass() const = 0;
     [[nodiscard]] virtual std::uint64_t blades() const = 0; ///< that have a state
-    [[nodiscard]] virtual double reach_m() const = 0;       ///< every blade nearer to the last eye has one
+    [[nodiscard]] virtual double reach_m() const = 0;       ///< every blade nearer to one of the last eyes has one
     [[nodiscard]] std::int64_t steps() const { return done_; } ///< since time 0, those left out counted
     [[nodiscard]] std::uint64_t sphere_pairs() const { return pairs_; } ///< of a patch and a sphere, in the last call
     [[nodiscard]] const Settings& settings() const { return settings_; }

@@ -86,11 +86,16 @@ void SurfaceSimulation::clear() {
     std::fill(cluster_of_.begin(), cluster_of_.end(), -1);
 }
 
-std::vector<std::size_t> SurfaceSimulation::wishes(glm::vec3 eye) {
+std::vector<std::size_t> SurfaceSimulation::wishes(std::span<const glm::dvec3> eyes) {
     std::vector<std::pair<double, std::size_t>> near;
     for (std::size_t n = 0; n < clusters_.size(); ++n) {
-        const glm::vec3 away = glm::max(glm::max(clusters_[n].low - eye, eye - clusters_[n].high), glm::vec3(0));
-        if (const double apart = glm::length(away); apart < radius_m_) {
+        double apart = radius_m_;
+        for (const glm::dvec3& place : eyes) {
+            const glm::vec3 eye(place);
+            const glm::vec3 away = glm::max(glm::max(clusters_[n].low - eye, eye - clusters_[n].high), glm::vec3(0));
+            apart = std::min<double>(apart, glm::length(away));
+        }
+        if (apart < radius_m_) {
             near.emplace_back(apart, n);
         }
     }
@@ -136,7 +141,7 @@ void SurfaceSimulation::give(const std::vector<std::size_t>& wanted, std::vector
 void SurfaceSimulation::page(const Inputs& inputs) {
     const std::vector<std::uint32_t> before = slot_of_;
     std::vector<int> fresh;
-    give(wishes(glm::vec3(inputs.eye)), fresh);
+    give(wishes(inputs.eyes()), fresh);
     if (slot_of_ != before) {
         slot_buffer_.upload(slot_of_.data(), slot_of_.size() * sizeof(std::uint32_t));
     }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "blades/simulation.h"
@@ -51,7 +52,7 @@ private:
     void clear() override;
     void page(const Inputs& inputs) override;
     [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const override;
-    [[nodiscard]] std::vector<std::size_t> wishes(glm::vec3 eye);
+    [[nodiscard]] std::vector<std::size_t> wishes(std::span<const glm::dvec3> eyes);
     void give(const std::vector<std::size_t>& wanted, std::vector<int>& fresh);
 
     std::vector<SurfaceCluster> clusters_; ///< of all buffers

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/context.h"
 
+#include <cstdlib>
 #include <vector>
 
 #include <epoxy/egl.h>
@@ -8,11 +9,18 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/room.h"
 
 namespace sward::gl {
 
 using base::Error;
 using base::ExitCode;
+
+namespace {
+
+constexpr std::size_t kDriverRoom = std::size_t{512} << 20; ///< a driver with its compiler may take so much address space
+
+} // namespace
 
 struct HeadlessContext::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
@@ -21,6 +29,7 @@ struct HeadlessContext::Impl {
 
     /// True when `candidate` gave a current 4.5 core context.
     bool try_display(EGLDisplay candidate, bool debug) {
+        ::setenv("EGL_LOG_LEVEL", "fatal", 0); // what its loader could not do is told once, by us
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) {
             return false;
         }
@@ -66,6 +75,7 @@ HeadlessContext::HeadlessContext(bool debug) : impl_(std::make_unique<Impl>()) {
         impl_->platform = "surfaceless";
         return;
     }
+    base::refuse_if_starved(kDriverRoom);
     throw Error(ExitCode::kNoGpu, fmt::format("GPU: no OpenGL 4.5 core context through EGL ({} devices and the surfaceless "
                                               "platform tried); is a driver installed (Debian: libegl-mesa0 libgl1-mesa-dri)?", count));
 }

@@ -20,6 +20,7 @@ using base::ExitCode;
 namespace {
 
 constexpr std::uint64_t kMaxShaderBytes = 1u << 20;
+fs::path g_given; // by a host; the context's thread only
 
 void expand(ShaderSource& out, const fs::path& root, const fs::path& name, const std::string& wanted_by) {
     if (std::find(out.files.begin(), out.files.end(), name) != out.files.end()) {
@@ -56,9 +57,14 @@ void expand(ShaderSource& out, const fs::path& root, const fs::path& name, const
 
 } // namespace
 
+void set_shader_directory(const fs::path& directory) { g_given = directory; }
+
 fs::path shader_directory() {
     if (const char* chosen = std::getenv("SWARD_SHADERS"); chosen && *chosen) {
         return chosen;
+    }
+    if (!g_given.empty()) {
+        return g_given;
     }
     const fs::path installed = base::executable_directory() / ".." / "share" / "sward" / "shaders";
     std::error_code ignored;

@@ -14,6 +14,8 @@ struct ShaderSource {
     std::vector<std::filesystem::path> files;
 };
 
+/// Where a host says that the shaders are; the environment's SWARD_SHADERS goes before. Empty: nowhere.
+void set_shader_directory(const std::filesystem::path& directory);
 /// Where shaders live: $SWARD_SHADERS, else share/sward/shaders beside the programs, else the source tree.
 [[nodiscard]] std::filesystem::path shader_directory();
 

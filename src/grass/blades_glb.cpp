@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <sstream>
 #include <string_view>
 
@@ -104,15 +105,22 @@ int add_accessor(tinygltf::Model& model, const Attribute& attribute, Part part, 
     return static_cast<int>(model.accessors.size()) - 1;
 }
 
-void add_attribute(tinygltf::Model& model, tinygltf::Primitive& points, const Attribute& attribute,
-                   std::span<const BladeRecord> blades, BladeAttributes form) {
-    const std::string name = attribute.name;
-    if (form == BladeAttributes::kVectors || attribute.components == 1 || !name.starts_with('_')) {
-        points.attributes[name] = add_accessor(model, attribute, {0, attribute.components}, blades);
+/// "_V1" -> "_V1_X" and so on.
+std::string component_name(const Attribute& attribute, int component) {
+    return fmt::format("{}_{}", attribute.name, "XYZ"[component]);
+}
+
+bool is_split(const Attribute& attribute) {
+    return attribute.components > 1 && attribute.name[0] == '_';
+}
+
+void add_attribute(tinygltf::Model& model, tinygltf::Primitive& points, const Attribute& attribute, std::span<const BladeRecord> blades) {
+    if (!is_split(attribute)) {
+        points.attributes[attribute.name] = add_accessor(model, attribute, {0, attribute.components}, blades);
         return;
     }
     for (int c = 0; c < attribute.components; ++c)
-        points.attributes[fmt::format("{}_{}", name, "XYZ"[c])] = add_accessor(model, attribute, {c, 1}, blades);
+        points.attributes[component_name(attribute, c)] = add_accessor(model, attribute, {c, 1}, blades);
 }
 
 /// Depth and length of the JSON chunk, before a recursive parser sees it.
@@ -174,25 +182,19 @@ public:
         const auto& attributes = mesh.primitives[0].attributes;
         std::vector<BladeRecord> blades;
         for (const Attribute& attribute : kAttributes) {
-            const auto found = attributes.find(attribute.name);
-            if (found == attributes.end())
-                refuse("attribute", "none", attribute.name);
-            const auto [data, count] = floats(found->second, attribute);
+            const std::vector<float> values = numbers(attributes, attribute);
+            const auto components = static_cast<std::size_t>(attribute.components);
+            const std::size_t count = values.size() / components;
             if (blades.empty())
                 blades.assign(count, BladeRecord{shared::vec4(0), shared::vec4(0), shared::vec4(0),
                                                  shared::vec4(0)});
             if (blades.size() != count)
                 refuse(attribute.name, fmt::format("{} values", count),
                        std::to_string(blades.size()));
-            for (std::size_t i = 0; i < count; ++i) {
-                float f[3] = {};
-                std::memcpy(
-                    f, data + i * static_cast<std::size_t>(attribute.components) * sizeof(float),
-                    static_cast<std::size_t>(attribute.components) * sizeof(float));
-                if (!std::ranges::all_of(f, [](float v) { return std::isfinite(v); }))
-                    refuse(attribute.name, "NaN or infinity", "finite numbers");
-                attribute.write(blades[i], f);
-            }
+            if (!std::ranges::all_of(values, [](float v) { return std::isfinite(v); }))
+                refuse(attribute.name, "NaN or infinity", "finite numbers");
+            for (std::size_t i = 0; i < count; ++i)
+                attribute.write(blades[i], &values[i * components]);
         }
         return blades;
     }
@@ -203,37 +205,60 @@ public:
     }
 
 private:
+    using Names = std::map<std::string, int>; ///< an attribute's accessor
+
+    /// All values of an attribute, one after the other; of a vector in three attributes or, as sets were written once, in one.
+    std::vector<float> numbers(const Names& names, const Attribute& attribute) const {
+        const bool split = is_split(attribute) && !names.contains(attribute.name);
+        const int parts = split ? attribute.components : 1, each = split ? 1 : attribute.components;
+        std::vector<float> values;
+        for (int part = 0; part < parts; ++part) {
+            const std::string name = split ? component_name(attribute, part) : attribute.name;
+            const auto found = names.find(name);
+            if (found == names.end())
+                refuse("attribute", "none", name);
+            const auto [data, count] = floats(found->second, name, each);
+            if (part > 0 && values.size() != count * static_cast<std::size_t>(parts))
+                refuse(name, fmt::format("{} values", count), fmt::format("{}", values.size() / static_cast<std::size_t>(parts)));
+            values.resize(count * static_cast<std::size_t>(attribute.components));
+            if (!split)
+                std::memcpy(values.data(), data, values.size() * sizeof(float));
+            for (std::size_t i = 0; split && i < count; ++i)
+                std::memcpy(&values[i * static_cast<std::size_t>(parts) + static_cast<std::size_t>(part)], data + i * sizeof(float), sizeof(float));
+        }
+        return values;
+    }
+
     /// Start and count of a tightly packed float accessor, bounds checked.
-    std::pair<const unsigned char*, std::size_t> floats(int index,
-                                                        const Attribute& attribute) const {
+    std::pair<const unsigned char*, std::size_t> floats(int index, const std::string& name, int components) const {
         const auto inside = [](int i, std::size_t size) {
             return i >= 0 && static_cast<std::size_t>(i) < size;
         };
         if (!inside(index, model_.accessors.size()))
-            refuse(attribute.name, "an accessor that is not there", "one that is");
+            refuse(name, "an accessor that is not there", "one that is");
         const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-        const int type = attribute.components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
+        const int type = components == 3 ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_SCALAR;
         if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT || accessor.type != type ||
             accessor.sparse.isSparse)
-            refuse(attribute.name, "another type", "plain floats");
+            refuse(name, "another type", "plain floats");
         if (!inside(accessor.bufferView, model_.bufferViews.size()))
-            refuse(attribute.name, "a buffer view that is not there", "one that is");
+            refuse(name, "a buffer view that is not there", "one that is");
         const tinygltf::BufferView& view =
             model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
         const std::size_t bytes =
-            accessor.count * static_cast<std::size_t>(attribute.components) * sizeof(float);
+            accessor.count * static_cast<std::size_t>(components) * sizeof(float);
         if (accessor.count == 0 || accessor.count > kMaxBlades || accessor.byteOffset != 0 ||
             bytes > view.byteLength ||
             (view.byteStride != 0 &&
-             view.byteStride != static_cast<std::size_t>(attribute.components) * sizeof(float)))
-            refuse(attribute.name, fmt::format("{} values", accessor.count),
+             view.byteStride != static_cast<std::size_t>(components) * sizeof(float)))
+            refuse(name, fmt::format("{} values", accessor.count),
                    "a packed accessor inside its view");
         if (!inside(view.buffer, model_.buffers.size()))
-            refuse(attribute.name, "a buffer that is not there", "one that is");
+            refuse(name, "a buffer that is not there", "one that is");
         const std::vector<unsigned char>& data =
             model_.buffers[static_cast<std::size_t>(view.buffer)].data;
         if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
-            refuse(attribute.name, "an end beyond the buffer", "an end inside");
+            refuse(name, "an end beyond the buffer", "an end inside");
         return {data.data() + view.byteOffset, accessor.count};
     }
 
@@ -262,7 +287,7 @@ void check_blades(std::span<const BladeRecord> blades, float side_m, const Varia
 } // namespace
 
 std::vector<std::byte> encode_blades(std::span<const BladeRecord> blades,
-                                     std::span<const std::uint32_t> variant_begin, float side_m, BladeAttributes form) {
+                                     std::span<const std::uint32_t> variant_begin, float side_m) {
     tinygltf::Model model;
     model.asset.version = "2.0";
     model.asset.generator = "Sward texgen";
@@ -275,7 +300,7 @@ std::vector<std::byte> encode_blades(std::span<const BladeRecord> blades,
         tinygltf::Primitive points;
         points.mode = TINYGLTF_MODE_POINTS;
         for (const Attribute& attribute : kAttributes)
-            add_attribute(model, points, attribute, part, form);
+            add_attribute(model, points, attribute, part);
         tinygltf::Mesh mesh;
         mesh.name = fmt::format("variant {}", v);
         mesh.primitives.push_back(points);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cmath>
 
-#include "render/impl.h"
+#include "render/field_state.h"
 #include "shared/bend.h"
+#include "shells/far_appearance.h"
 
 namespace sward::render {
 
@@ -21,21 +23,12 @@ glm::dvec3 direction(double yaw_deg, double pitch_deg) {
     return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
 }
 
-/// Rotation into the eye's frame (x right, y up, -z ahead), then a reversed-depth projection without a far plane.
-glm::dmat4 clip_from_eye(const scene::Pose& pose, const FrameSettings& settings, glm::dvec2 jitter) {
-    const glm::dvec3 ahead = direction(pose.yaw_deg, pose.pitch_deg);
-    const glm::dvec3 right = direction(pose.yaw_deg + 90, 0);
-    const glm::dvec3 up = glm::cross(right, ahead);
-    const glm::dmat4 view = glm::transpose(glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(-ahead, 0), glm::dvec4(0, 0, 0, 1)));
-    const double f = 1 / std::tan(0.5 * pose.fov_deg * kDegree);
-    glm::dmat4 projection(0);
-    projection[0][0] = f * settings.height / settings.width;
-    projection[1][1] = f;
-    projection[2][0] = 2 * jitter.x / settings.width;
-    projection[2][1] = 2 * jitter.y / settings.height;
-    projection[2][3] = -1;
-    projection[3][2] = shared::kNear_m;
-    return projection * view;
+/// World, relative to the eye, to clip coordinates. `jitter` in pixels.
+glm::dmat4 clip_from_eye(const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) {
+    glm::dmat4 projection = lens.clip_from_eye;
+    projection[2][0] += 2 * jitter.x / settings.width;
+    projection[2][1] += 2 * jitter.y / settings.height;
+    return projection * lens.turn;
 }
 
 /// Clear summer sky by the sun's height: warmer and weaker as it sinks.
@@ -80,24 +73,24 @@ double flutter_time(double time_s) {
 
 } // namespace
 
-Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, glm::dvec2 jitter) const {
+Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) const {
     Shot shot;
     const grass::GrassSet& set = world.grass;
-    const glm::dvec3 eye = view.pose.position;
+    const glm::dvec3 eye = lens.eye;
     shot.anchor = {std::round(eye.x / kAnchorGrid_m) * kAnchorGrid_m, std::floor(eye.y), std::round(eye.z / kAnchorGrid_m) * kAnchorGrid_m};
     const glm::dvec2 anchor(shot.anchor.x, shot.anchor.z);
-    const double focal_px = 0.5 * settings.height / std::tan(0.5 * view.pose.fov_deg * kDegree);
-    const double lod_focal_px = 0.5 * settings.height / std::tan(0.5 * view.lod_pose.fov_deg * kDegree);
+    const glm::dvec3 lod_eye = settings.lod_eye.value_or(eye);
+    const double focal_px = lens.focal_px(settings.width, settings.height);
     const double texel_m = set.levels.empty() ? 0 : static_cast<double>(set.side_m) / set.levels[0].layers.width;
-    shot.bands = lod::bands({}, {lod_focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())}, world.scene.lod);
+    shot.bands = lod::bands({}, {focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())}, world.scene.lod);
 
     shared::FrameConstants& out = shot.constants;
     const glm::dvec3 eye_here = eye - shot.anchor;
-    const glm::dmat4 matrix = clip_from_eye(view.pose, settings, jitter) * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
+    const glm::dmat4 matrix = clip_from_eye(lens, settings, jitter) * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
     out.clip_from_world = glm::mat4(matrix);
     out.world_from_clip = glm::mat4(glm::inverse(matrix));
     out.eye = glm::vec4(glm::vec3(eye_here), static_cast<float>(focal_px));
-    out.lod_eye = glm::vec4(glm::vec3(view.lod_pose.position - shot.anchor), static_cast<float>(flutter_time(view.time_s)));
+    out.lod_eye = glm::vec4(glm::vec3(lod_eye - shot.anchor), static_cast<float>(flutter_time(time_s)));
 
     const double side = set.side_m;
     const glm::dvec2 tile = glm::floor(anchor / side);
@@ -105,14 +98,9 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
     out.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
     out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
     fill_bands(out, shot.bands, settings);
-    const double aside = glm::length(glm::dvec2(view.lod_pose.position.x - eye.x, view.lod_pose.position.z - eye.z));
-    shot.detail = terrain::detail_of(view.pose.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover.y) + aside);
+    const double aside = glm::length(glm::dvec2(lod_eye.x - eye.x, lod_eye.z - eye.z));
+    shot.detail = terrain::detail_of(lens.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover.y) + aside);
     out.pose_band.w = static_cast<float>(mean_blade_width_m);
-    for (int i = 0; !set.far.empty() && i <= shared::kShareSteps; ++i) {
-        const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;
-        out.shell_share[i] = shells::shell_share_at(set, elevation);
-        out.slice_share[i] = {shells::slice_share_at(set, elevation), 0, 0, 0};
-    }
     out.mode.w = set.height_coding;
     clipmap.describe(out, anchor);
     out.clip_layout.y = settings.width;
@@ -124,11 +112,12 @@ Shot Renderer::Impl::make_shot(const View& view, const FrameSettings& settings, 
         mesh_ground->describe(out, settings.far == FarScheme::kMarch);
     }
     out.light = light_of(world.scene.sun);
-    out.wind = wind.field(anchor, view.time_s);
-    if (const blades::LivingBlades* alive = living(settings)) {
-        const auto reach = static_cast<float>(alive->reach_m());
+    out.wind = wind.field(anchor, time_s);
+    if (const blades::LivingBlades* alive = living()) {
+        const auto reach = static_cast<float>(std::max(alive->reach_m() - away_from_eyes(eye), 0.0));
         out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};
     }
+    out.near_m = static_cast<float>(lens.near_m);
     out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter
     out.ground_colours[1] = {0.17f, 0.155f, 0.135f, 0};  // bare rock and scree
     return shot;

@@ -4,13 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/impl.h"
+#include "blades/surface_placement.h"
 
 namespace sward::render {
 
 namespace {
 
-constexpr float kApart = 0.004f;      // canopies: nearer along a ray, two of its surfaces are one
 constexpr float kNoHandover_m = 1e6f; // geometry at every distance
 
 } // namespace
@@ -51,83 +50,6 @@ void MeshGround::describe(shared::FrameConstants& frame, bool far_field) const {
     look.outline = {2, 1, 1, 1};
     frame.patch_grid.w = static_cast<float>(spec_.blade_height_m.y);
     frame.pose_band.w = static_cast<float>(mean_blade_width_m());
-}
-
-void Renderer::Impl::draw_mesh_ground(const FrameSettings& settings, const Shot& shot) {
-    DrawPasses& draw = passes(settings.aov);
-    const glm::vec3 origin(-shot.anchor);
-    if (settings.terrain) {
-        const gl::PassScope pass(timers, "surface");
-        draw.meshes.execute(mesh_ground->mesh(), mesh_ground->look(origin));
-    }
-    if (!settings.blades || settings.tiers == Tiers::kShells) {
-        return;
-    }
-    build_pyramid(settings);
-    const blades::CullTests tests = settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false} : settings.cull;
-    mesh_ground->grass().limit(glm::vec3(shot.constants.lod_eye), shot.constants.handover.y);
-    mesh_ground->grass().execute(terrain::Frustum(shot.constants.clip_from_world), origin, draw.surface(settings.aov), tests,
-                                 counts.blades_considered > 0, living(settings) ? surface_simulation.get() : nullptr, [&](const char* name, auto&& step) {
-                                     const gl::PassScope pass(timers, name);
-                                     step();
-                                 });
-    counts.blades_considered = mesh_ground->grass().considered();
-}
-
-void Renderer::Impl::draw_mesh_far(const FrameSettings& settings, const Shot& shot) {
-    if (!mesh_ground->has_set()) {
-        return;
-    }
-    shells::MarchPass& march = passes(settings.aov).march;
-    const glm::vec3 origin(-shot.anchor);
-    {
-        const gl::PassScope pass(timers, "canopy");
-        surface_canopy.require(settings.width, settings.height);
-        march.draw_surface(surface_canopy, mesh_ground->canopy(), origin, kApart * world.grass.canopy_m);
-    }
-    const shells::MarchPass::Inputs inputs{march_textures, surface_canopy.first, &surface_canopy, origin, targets.samples(), 0};
-    const gl::PassScope pass(timers, "far field");
-    targets.bind_resolved();
-    march.choose(inputs);
-    targets.bind_scene_textures();
-    march.execute(inputs);
-}
-
-void Renderer::Impl::draw_objects(const FrameSettings& settings, const Shot& shot, double time_s) {
-    if (world.scene.objects.empty()) {
-        return;
-    }
-    const gl::PassScope pass(timers, "objects");
-    for (const scene::ObjectSpec& object : world.scene.objects) {
-        const bool ball = object.kind == "sphere";
-        const auto mesh = object_meshes.find(object.mesh);
-        if (!ball && mesh == object_meshes.end()) {
-            continue; // a rotor, or a vehicle without a mesh
-        }
-        scene::Pose pose = scene::object_pose(object, world.scene.paths, time_s);
-        if (pose.agl) {
-            pose.position.y += surface.height(pose.position.x, pose.position.z);
-        }
-        MeshPass::Look look;
-        look.place = glm::vec3(pose.position - shot.anchor);
-        look.scale = ball ? static_cast<float>(object.radius_m) : 1;
-        look.yaw_deg = pose.yaw_deg;
-        look.colour = glm::vec3(object.colour);
-        look.bare = look.colour;
-        passes(settings.aov).meshes.execute(ball ? object_meshes.at({}) : mesh->second, look);
-    }
-}
-
-void Renderer::Impl::make_object_meshes() {
-    for (const scene::ObjectSpec& object : world.scene.objects) {
-        if (object.kind == "sphere" && !object_meshes.contains({})) {
-            object_meshes.emplace(std::filesystem::path(), unit_sphere());
-        }
-        const auto mesh = world.meshes.find(object.mesh);
-        if (!object.mesh.empty() && !object_meshes.contains(object.mesh) && mesh != world.meshes.end()) {
-            object_meshes.emplace(object.mesh, mesh->second);
-        }
-    }
 }
 
 } // namespace sward::render

@@ -75,14 +75,22 @@ scene::Mesh unit_sphere() {
     return mesh;
 }
 
+glm::mat3 yaw_turn(double yaw_deg) {
+    const double yaw = yaw_deg * std::numbers::pi / 180;
+    const auto c = static_cast<float>(std::cos(yaw)), s = static_cast<float>(std::sin(yaw));
+    return {{c, 0, s}, {0, 1, 0}, {-s, 0, c}};
+}
+
 MeshPass::MeshPass(bool aov)
     : program_("meshes", {"render/mesh.vert", "render/mesh.frag"}, aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {}
 
 void MeshPass::execute(const MeshBuffer& mesh, const Look& look) {
-    const double yaw = look.yaw_deg * std::numbers::pi / 180;
     program_.use();
     program_.set("place", glm::vec4(look.place, look.scale));
-    program_.set("turn", glm::vec4(std::cos(yaw), std::sin(yaw), look.density, 0));
+    program_.set("axis_x", glm::vec4(look.turn[0], 0));
+    program_.set("axis_y", glm::vec4(look.turn[1], 0));
+    program_.set("axis_z", glm::vec4(look.turn[2], 0));
+    program_.set("density", look.density);
     program_.set("colour", glm::vec4(look.colour, look.tier));
     program_.set("bare", glm::vec4(look.bare, look.least_up));
     mesh.draw();

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "render/impl.h"
+#include "render/view_state.h"
 
 namespace sward::render {
 
@@ -35,8 +35,7 @@ const std::vector<Aov>& table() {
 
 } // namespace
 
-scene::Picture Renderer::read_picture() {
-    const Targets& targets = impl_->targets;
+scene::Picture ViewState::read_picture() const {
     scene::Picture picture{targets.width(), targets.height(), {}};
     const std::size_t row = static_cast<std::size_t>(picture.width) * 3;
     std::vector<std::uint8_t> upside_down(row * picture.height);
@@ -49,8 +48,7 @@ scene::Picture Renderer::read_picture() {
     return picture;
 }
 
-scene::Image Renderer::read_aovs(const std::vector<std::string>& names) {
-    const Targets& targets = impl_->targets;
+scene::Image ViewState::read_aovs(const std::vector<std::string>& names) const {
     std::vector<float> sources[4];
     scene::Image image{targets.width(), targets.height(), {}, {}, {}};
     std::vector<std::pair<int, int>> picks; // source, component

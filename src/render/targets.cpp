@@ -74,4 +74,9 @@ void Targets::bind_scene_textures() const {
 
 void Targets::bind_resolved_color() const { color_.bind(TEX_RESOLVE_COLOR); }
 
+void Targets::bind_resolved_textures() const {
+    color_.bind(TEX_RESOLVE_COLOR);
+    data_.bind(TEX_RESOLVE_DATA);
+}
+
 } // namespace sward::render

@@ -18,6 +18,8 @@ public:
     /// Binds the scene's textures for the resolve, the resolved colour for the tone map.
     void bind_scene_textures() const;
     void bind_resolved_color() const;
+    /// The resolved colour and data.
+    void bind_resolved_textures() const;
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }

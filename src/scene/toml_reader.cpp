@@ -273,7 +273,7 @@ void TableReader::finish() const {
         const std::string nearest = base::nearest_name(entry, known_);
         throw base::input_error(base::ExitCode::kBadInput, file_,
                                 static_cast<int>(key.source().begin.line), "unknown key",
-                                full_name(entry),
+                                full_name(entry.empty() ? "\"\"" : entry),
                                 nearest.empty() ? fmt::format("one of {}", fmt::join(known_, ", "))
                                                 : full_name(nearest));
     }

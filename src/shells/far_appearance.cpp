@@ -148,42 +148,6 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
     return texels;
 }
 
-namespace {
-
-/// A value of the rows (falling elevation) at `place`, linear in what `place_of` makes of a row's elevation in radians, held at
-/// both ends.
-template<class PlaceOf, class Value>
-auto between_rows(const std::vector<grass::FarRow>& rows, float place, PlaceOf place_of, Value value) {
-    const auto at = [&](const grass::FarRow& row) { return place_of(row.elevation_deg * shared::kPi / 180); };
-    if (place >= at(rows.front())) {
-        return value(rows.front());
-    }
-    for (std::size_t i = 1; i < rows.size(); ++i) {
-        const float low = at(rows[i]);
-        if (place >= low) {
-            return glm::mix(value(rows[i]), value(rows[i - 1]), (place - low) / (at(rows[i - 1]) - low));
-        }
-    }
-    return value(rows.back());
-}
-
-} // namespace
-
-float slice_share_at(const grass::GrassSet& set, float elevation) {
-    return between_rows(set.far, elevation, [](float e) { return e; }, [](const grass::FarRow& row) { return row.slice_share; });
-}
-
-glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation) {
-    const int levels = std::min(static_cast<int>(set.levels.size()), shared::kMaxFarLevels);
-    return between_rows(set.far, elevation, [](float e) { return e; }, [levels](const grass::FarRow& row) {
-        glm::vec4 shares(1);
-        for (int k = 0; k < levels; ++k) {
-            shares[k] = row.share_at(k);
-        }
-        return shares;
-    });
-}
-
 void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
     if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_) {
         return;

@@ -33,10 +33,4 @@ private:
 /// The texels of one wind's two layers, layer-major: `wind` is its velocity x, z (m/s) and the grass's response (WindField::mean).
 [[nodiscard]] std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light, const glm::vec4& wind);
 
-/// Share of the slices at a view elevation (radians), likewise.
-[[nodiscard]] float slice_share_at(const grass::GrassSet& set, float elevation);
-
-/// Share of the shells' blades that far levels 0 to 3 show at a view elevation (radians), linear between the set's rows.
-[[nodiscard]] glm::vec4 shell_share_at(const grass::GrassSet& set, float elevation);
-
 } // namespace sward::shells

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shells/far_appearance.h"
-
 namespace sward::shells {
 
 namespace {
@@ -40,18 +38,28 @@ glm::vec2 seen_bent(glm::vec2 sines, const VisibleBlock& block, const FarQuery& 
     return glm::clamp(sines + glm::vec2(-1.1f * most, most * most * std::max(toward, 0.0f)), 0.0f, 1.0f);
 }
 
-/// Largest share of level k's blades that the shells of a block show, over the elevations it is seen at.
-float largest_shell_share(const grass::GrassSet& set, const VisibleBlock& block, const FarQuery& query, int k) {
-    const Span span = distances(block, query.eye, set.canopy_m);
+/// Largest shares of the blades that the shells of each level (x to w) and the slices of a block show, over the elevations it is seen at.
+struct LargestShares {
+    glm::vec4 shells{0};
+    float slices = 0;
+};
+
+LargestShares largest_shares(float canopy, const VisibleBlock& block, const FarQuery& query) {
+    const Span span = distances(block, query.eye, canopy);
     const float drop = query.eye.y - 0.5f * (block.low + block.high);
-    const float spread = 0.5f * block.slope * side_of(block) + set.canopy_m;
+    const float spread = 0.5f * block.slope * side_of(block) + canopy;
     // A slope turns toward the eye by its own angle at most.
     const float low = std::clamp((drop - spread) / std::max(span.farthest, 1e-3f) - block.slope, 0.0f, 1.0f);
     const float high = std::clamp((drop + spread) / std::max(span.nearest, 1e-3f) + block.slope, 0.0f, 1.0f);
     const glm::vec2 sines = seen_bent({low, high}, block, query);
-    float largest = 0;
-    for (int i = 0; i <= 4; ++i) {
-        largest = std::max(largest, shell_share_at(set, std::asin(glm::mix(sines.x, sines.y, static_cast<float>(i) / 4)))[k]);
+    LargestShares largest;
+    for (int i = 0; i <= 4; ++i) { // far.vert's look-up
+        const float sine = glm::mix(std::min(sines.x, low), std::max(sines.y, high), static_cast<float>(i) / 4);
+        const float at = std::asin(std::min(sine, 0.99999f)) * (shared::kShareSteps / (0.5f * shared::kPi));
+        const auto row = static_cast<int>(at);
+        const float part = at - static_cast<float>(row);
+        largest.shells = glm::max(largest.shells, glm::mix(query.shares.shells[row], query.shares.shells[row + 1], part));
+        largest.slices = std::max(largest.slices, glm::mix(query.shares.slices[row].x, query.shares.slices[row + 1].x, part));
     }
     return largest;
 }
@@ -169,16 +177,19 @@ FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& 
     FarList list;
     for (std::size_t index = 0; index < blocks.size(); ++index) {
         const VisibleBlock& block = blocks[index];
+        const LargestShares shown = largest_shares(set.canopy_m, block, query);
         for (std::size_t k = 0; k < set.levels.size(); ++k) {
             const int level = static_cast<int>(k);
             const Place place{block, index, level, reach(set, block, bands, query, level)};
             if (place.within.farthest < 0) {
                 continue;
             }
-            if (largest_shell_share(set, block, query, level) >= kLeastShare) {
+            if (shown.shells[level] >= kLeastShare) {
                 add_shells(list.shells[k], place, set, query);
             }
-            add_slices(list.slices[k], place, set, query);
+            if (shown.slices >= kLeastShare) {
+                add_slices(list.slices[k], place, set, query);
+            }
         }
     }
     return list;

@@ -25,6 +25,7 @@ struct FarQuery {
     glm::vec2 patch_offset{0}; ///< of the anchor in its patch (m)
     bool alone = false;     ///< the far tier from the eye's feet on
     int forced_level = -1;
+    shared::FarShares shares{}; ///< of the blades, that the families show
     glm::vec2 bend{0};      ///< where the mean wind turns an upright blade: x, z of a unit vector
 };
 

@@ -44,7 +44,7 @@ gl::Buffer strip_indices() {
 FarPass::FarPass(Family family, bool aov, bool block_shapes)
     : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"},
                                 defines(family, aov, block_shapes)),
-      strip_(strip_indices()) {
+      strip_(strip_indices()), shares_(sizeof(shared::FarShares)) {
     glCreateVertexArrays(1, &strip_array_);
     glVertexArrayElementBuffer(strip_array_, strip_.id());
     glCreateQueries(GL_SAMPLES_PASSED, 1, &query_);
@@ -76,6 +76,8 @@ void FarPass::draw_level(std::size_t k, const Inputs& inputs) const {
 
 void FarPass::execute(const Inputs& inputs) {
     program_.use();
+    shares_.upload(&inputs.shares, sizeof(inputs.shares));
+    shares_.bind_uniform(BIND_FAR_SHARES);
     glBeginQuery(GL_SAMPLES_PASSED, query_);
     for (std::size_t k = 0; k < inputs.textures.levels().size(); ++k) {
         const std::size_t bytes = inputs.instances[k].size() * sizeof(shared::FarInstance);

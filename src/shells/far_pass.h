@@ -27,6 +27,7 @@ public:
         const FarTextures& textures;
         const std::array<std::vector<shared::FarInstance>, shared::kMaxFarLevels>& instances;
         const terrain::BlockMesh& mesh;
+        const shared::FarShares& shares;
     };
     void execute(const Inputs& inputs);
     /// Samples that passed every test in the last execute(); waits for the GPU.
@@ -38,7 +39,7 @@ private:
     void draw_level(std::size_t k, const Inputs& inputs) const;
     gl::Program program_;
     std::array<gl::Buffer, shared::kMaxFarLevels> instances_;
-    gl::Buffer strip_;
+    gl::Buffer strip_, shares_;
     std::uint32_t strip_array_ = 0;
     std::uint32_t query_ = 0;
 };

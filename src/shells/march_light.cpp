@@ -110,30 +110,85 @@ std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& t
     return factors;
 }
 
-MarchLight::MarchLight(const grass::GrassSet& set) : far_light_(set.far_light) {
+namespace {
+
+constexpr float kLowestSun = -0.2f; // surface_view.glsl has it: where no sunlight is left
+
+/// The light over a surface that the sun stands so high over (sine), and that faces as much of the sky as most of a round mesh does.
+shared::Light light_from(const shared::Light& light, float sine) {
+    constexpr float kOpenSky = 0.75f;
+    shared::Light here = shared::light_under(light, kOpenSky);
+    const glm::vec2 heading(light.to_sun.x, light.to_sun.z);
+    const float flat = glm::length(heading);
+    const float level = std::sqrt(std::max(1 - sine * sine, 0.0f));
+    const glm::vec2 to = flat > 1e-4f ? heading * (level / flat) : glm::vec2(level, 0);
+    here.to_sun = {to.x, sine, to.y, light.to_sun.w};
+    return here;
+}
+
+} // namespace
+
+MarchLight::MarchLight(const grass::GrassSet& set, bool mesh) : far_light_(set.far_light), suns_(mesh ? kSuns : 1) {
     if (!set.march.columns.density.mips.empty()) {
         mean_.emplace_back(set);
     }
 }
 
+bool MarchLight::is_of(const shared::Light& light, const shared::WindField& wind) const {
+    return mean_.empty() || (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_);
+}
+
 void MarchLight::update(const shared::Light& light, const shared::WindField& wind) {
-    const bool same = table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_;
-    if (same || mean_.empty()) {
+    if (is_of(light, wind)) {
         return;
     }
-    light_ = light;
-    wind_ = wind.mean;
-    std::vector<float> texels;
-    for (int n = 0; n < shared::kFarWinds; ++n) {
-        const std::vector<float> one = light_factors(mean_.front(), far_light_, light, {shared::far_wind(wind, n), 0, wind_.w});
-        texels.insert(texels.end(), one.begin(), one.end());
+    begin(light, wind);
+    while (!add_part()) {
     }
+}
+
+void MarchLight::follow(const shared::Light& light, const shared::WindField& wind) {
     if (!table_.id()) {
-        table_ = gl::Texture(GL_R16F, {kAzimuths, kElevations, shared::kFarWinds});
+        update(light, wind);
+        return;
+    }
+    if (parts_ == 0) {
+        if (is_of(light, wind)) {
+            return;
+        }
+        begin(light, wind);
+    }
+    add_part();
+}
+
+void MarchLight::begin(const shared::Light& light, const shared::WindField& wind) {
+    next_light_ = light;
+    next_wind_ = wind;
+    parts_ = 0;
+    next_.assign(static_cast<std::size_t>(suns_) * kAzimuths * kElevations, glm::vec4(0));
+}
+
+bool MarchLight::add_part() {
+    static_assert(shared::kFarWinds < 4, "a channel each");
+    const int sun = parts_ / shared::kFarWinds, gust = parts_ % shared::kFarWinds;
+    const shared::Light from = suns_ == 1 ? next_light_ : light_from(next_light_, glm::mix(kLowestSun, 1.0f, static_cast<float>(sun) / (kSuns - 1)));
+    const std::vector<float> part = light_factors(mean_.front(), far_light_, from, {shared::far_wind(next_wind_, gust), 0, next_wind_.mean.w});
+    for (std::size_t i = 0; i < part.size(); ++i) {
+        next_[static_cast<std::size_t>(sun) * part.size() + i][gust] = part[i];
+    }
+    if (++parts_ < suns_ * shared::kFarWinds) {
+        return false;
+    }
+    light_ = next_light_;
+    wind_ = next_wind_.mean;
+    parts_ = 0;
+    if (!table_.id()) {
+        table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, suns_});
         table_.set_filter(GL_LINEAR, GL_LINEAR);
         table_.set_wrap(GL_REPEAT, GL_CLAMP_TO_EDGE);
     }
-    table_.upload(0, GL_RED, GL_FLOAT, texels.data());
+    table_.upload(0, GL_RGBA, GL_FLOAT, next_.data());
+    return true;
 }
 
 void MarchLight::bind() const { table_.bind(TEX_MARCH_LIGHT); }

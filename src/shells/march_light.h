@@ -28,29 +28,43 @@ private:
 };
 
 /// What the march's light is multiplied by, so that its mean is that of rays through the blades (the set's far light): of many blades shading knows
-/// second moments alone. R16F, kAzimuths x kElevations, a layer for each of shared::kFarWinds winds. Columns: angle from the
-/// direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1.
+/// second moments alone. RGBA16F array, kAzimuths x kElevations, a channel for each of shared::kFarWinds winds. Columns: angle from the
+/// direction to the eye to that to the sun, from x towards z, 0 .. 2 pi, repeating; rows: sine of the view's elevation, 0..1. One layer; of a mesh, which
+/// faces any way, kSuns: sine of the sun's height over the surface, -0.2 (no sunlight) .. 1.
 class MarchLight {
 public:
     static constexpr int kAzimuths = 32;
     static constexpr int kElevations = 24;
     static constexpr float kMost = 2; ///< factors are between its inverse and this
+    static constexpr int kSuns = 6;
 
-    /// Of a set without a march it is empty.
-    explicit MarchLight(const grass::GrassSet& set);
-    /// Computed when the light or the mean wind changes, in some ten milliseconds on the CPU.
+    /// Of a set without a march it is empty. `mesh`: that it is on.
+    MarchLight(const grass::GrassSet& set, bool mesh);
+    /// Computed when the light or the mean wind changes, in some ten milliseconds on the CPU; of a mesh in kSuns times that.
     void update(const shared::Light& light, const shared::WindField& wind);
+    /// The same in parts, once a table is there: one wind of the next one a call, which takes the old one's place when it is whole. A sun that
+    /// moves is so followed some frames late, and no frame waits for a whole table.
+    void follow(const shared::Light& light, const shared::WindField& wind);
     void bind() const;
 
 private:
+    [[nodiscard]] bool is_of(const shared::Light& light, const shared::WindField& wind) const;
+    /// The next table, in parts of one wind and one sun each; true when it is whole and drawn with.
+    void begin(const shared::Light& light, const shared::WindField& wind);
+    bool add_part();
     const grass::FarLight& far_light_;
     std::vector<MeanMarch> mean_; ///< one, or none
     shared::Light light_{};
     glm::vec4 wind_{0};
+    int suns_; ///< layers
     gl::Texture table_;
+    shared::Light next_light_{}; ///< of the table in the making
+    shared::WindField next_wind_{};
+    int parts_ = 0; ///< that it has
+    std::vector<glm::vec4> next_;
 };
 
-/// The texels of one wind's layer.
+/// The factors for one wind.
 [[nodiscard]] std::vector<float> light_factors(const MeanMarch& mean, const grass::FarLight& truth, const shared::Light& light, const glm::vec4& wind);
 
 } // namespace sward::shells

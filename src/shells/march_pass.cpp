@@ -7,21 +7,43 @@
 
 namespace sward::shells {
 
-void CanopyTargets::require(int width, int height) {
-    if (depth_.id() && depth_.shape().width == width && depth_.shape().height == height) {
+void CanopyTargets::require(int width, int height, int samples) {
+    const gl::TextureShape& now = depth_.shape();
+    if (depth_.id() && now.width == width && now.height == height && sample_depth_.shape().samples == samples) {
         return;
     }
     surface_ = gl::Framebuffer();
+    samples_ = gl::Framebuffer();
     depth_ = gl::Texture(GL_DEPTH_COMPONENT32F, {width, height});
     ground_ = gl::Texture(GL_RGBA16F, {width, height});
     air_ = gl::Texture(GL_RGBA16F, {width, height});
     surface_ = gl::Framebuffer({&ground_, &air_}, &depth_);
+    if (samples > 0) {
+        sample_depth_ = gl::Texture(GL_DEPTH_COMPONENT32F, {width, height, 0, 1, samples});
+        samples_ = gl::Framebuffer({}, &sample_depth_);
+        find_places(samples);
+    }
+}
+
+void CanopyTargets::find_places(int samples) {
+    samples_.bind(depth_.shape().width, depth_.shape().height);
+    for (int i = 0; i < 4; ++i) {
+        float at[2] = {0.5f, 0.5f};
+        if (samples > 1) {
+            glGetMultisamplefv(GL_SAMPLE_POSITION, static_cast<GLuint>(i * samples / 4), at);
+        }
+        places_[0][i] = at[0];
+        places_[1][i] = at[1];
+    }
 }
 
 void CanopyTargets::bind_textures(std::uint32_t first) const {
     depth_.bind(first);
     ground_.bind(first + TEX_CANOPY_GROUND - TEX_CANOPY_DEPTH);
     air_.bind(first + TEX_CANOPY_AIR - TEX_CANOPY_DEPTH);
+    if (sample_depth_.id()) {
+        sample_depth_.bind(TEX_CANOPY_SAMPLES);
+    }
 }
 
 void SurfaceTargets::require(int width, int height) {
@@ -32,7 +54,7 @@ void SurfaceTargets::require(int width, int height) {
 
 void SurfaceTargets::bind_textures() const {
     second.bind_textures(TEX_SECOND_DEPTH);
-    exit.depth().bind(TEX_CANOPY_EXIT);
+    exit.ground().bind(TEX_CANOPY_EXIT);
 }
 
 namespace {
@@ -44,6 +66,12 @@ gl::Program marcher(const char* name, std::vector<std::string> defines) {
 std::vector<std::filesystem::path> canopy_stages(bool surface) {
     return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}
                    : std::vector<std::filesystem::path>{"shells/canopy.vert", "shells/canopy.frag"};
+}
+
+void clear_depth(const CanopyTargets& targets) {
+    constexpr float kFar[4] = {0, 0, 0, 0};
+    targets.bind_for_drawing();
+    glClearBufferfv(GL_DEPTH, 0, kFar);
 }
 
 } // namespace
@@ -76,7 +104,7 @@ void MarchPass::Kinds::reload() {
 }
 
 MarchPass::MarchPass(bool aov, bool surface)
-    : canopy_("canopy", canopy_stages(surface)),
+    : canopy_("canopy", canopy_stages(surface)), canopy_samples_("canopy's samples", {"shells/canopy.vert"}),
       choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, false, false}.with({})), kinds_({aov, surface, false, false}),
       aov_(aov), surface_(surface), counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
@@ -109,31 +137,58 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     glEnable(GL_CULL_FACE);
     canopy_.use();
     mesh.draw(blocks);
+    targets.bind_samples_for_drawing();
+    glClearBufferfv(GL_DEPTH, 0, kFar);
+    canopy_samples_.use();
+    mesh.draw(blocks);
     glDisable(GL_CULL_FACE);
 }
 
 void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m) {
-    constexpr float kFar[4] = {0, 0, 0, 0};
-    const auto draw = [&](const CanopyTargets& into, GLenum hidden, float behind) {
-        into.bind_for_drawing();
-        glClearBufferfv(GL_DEPTH, 0, kFar);
-        glCullFace(hidden);
-        canopy_.set("behind", behind);
-        mesh.draw();
-    };
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     canopy_.use();
     canopy_.set("surface_origin", glm::vec4(origin, 0));
-    draw(targets.exit, GL_FRONT, -1);
-    draw(targets.first, GL_BACK, 0);
+    canopy_.set("lift", 1.0f);
+    const auto enter = [&](const CanopyTargets& into, float behind) {
+        clear_depth(into);
+        canopy_.set("behind", behind);
+        mesh.draw();
+    };
+    // Through the top or a wall, from within, or to the ground: what is nearest. First and second share a target.
+    const auto leave = [&](const CanopyTargets& from, bool second) {
+        from.depth().bind(TEX_CANOPY_DEPTH);
+        clear_depth(targets.exit);
+        if (second) {
+            from.bind_textures(TEX_SECOND_DEPTH);
+            glColorMask(GL_FALSE, GL_FALSE, GL_TRUE, GL_TRUE);
+        }
+        canopy_.set("behind", second ? -2.0f : -1.0f);
+        glCullFace(GL_FRONT);
+        mesh.draw();
+        glCullFace(GL_BACK);
+        canopy_.set("lift", 0.0f);
+        mesh.draw();
+        canopy_.set("lift", 1.0f);
+        glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    };
+    targets.exit.bind_for_drawing();
+    constexpr float kUnknown[4] = {0, 0, 0, 0};
+    glClearBufferfv(GL_COLOR, 0, kUnknown);
+    enter(targets.first, 0);
+    leave(targets.first, false);
     targets.first.depth().bind(TEX_CANOPY_DEPTH);
-    draw(targets.second, GL_BACK, apart_m);
+    targets.exit.ground().bind(TEX_CANOPY_EXIT);
+    enter(targets.second, apart_m);
+    leave(targets.second, true);
     glDisable(GL_CULL_FACE);
 }
 
 void MarchPass::triangle(const gl::Program& program, const Inputs& inputs, float plane) const {
     program.use();
+    program.set("samples", inputs.samples);
+    program.set("sample_x", inputs.canopy.places()[0]);
+    program.set("sample_y", inputs.canopy.places()[1]);
     program.set("eye_height", inputs.eye_height_m);
     program.set("plane", plane);
     program.set("surface_origin", glm::vec4(inputs.origin, 0));
@@ -164,7 +219,6 @@ void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program&
     inputs.textures.bind_kind(kind);
     for (const gl::Program* program : {&plain, &crest}) {
         program->use();
-        program->set("samples", inputs.samples);
         program->set("kind", kind);
         triangle(*program, inputs, shared::kind_depth(kind, program == &crest));
     }
@@ -206,6 +260,7 @@ void MarchPass::execute(const Inputs& inputs) {
 
 void MarchPass::reload() {
     canopy_.reload();
+    canopy_samples_.reload();
     choose_.reload();
     kinds_.reload();
     if (fine_choose_) {

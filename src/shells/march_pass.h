@@ -20,18 +20,27 @@ namespace sward::shells {
 /// Where rays enter the canopy: its upper surface's depth, and the ground and the air there.
 class CanopyTargets {
 public:
-    void require(int width, int height);
+    /// `samples` a pixel of the scene has, for depth of its own; 0: none is kept.
+    void require(int width, int height, int samples = 0);
     void bind_for_drawing() const { surface_.bind(depth_.shape().width, depth_.shape().height); }
+    void bind_samples_for_drawing() const { samples_.bind(depth_.shape().width, depth_.shape().height); }
     /// At units from TEX_CANOPY_DEPTH or TEX_SECOND_DEPTH on.
     void bind_textures(std::uint32_t first) const;
     [[nodiscard]] const gl::Texture& depth() const { return depth_; }
+    /// Where the scene's samples lie in a pixel, 0..1: x of four, then y. Fewer count more than once.
+    [[nodiscard]] const std::array<glm::vec4, 2>& places() const { return places_; }
+    [[nodiscard]] const gl::Texture& ground() const { return ground_; }
 
 private:
+    void find_places(int samples);
     gl::Texture depth_, ground_, air_;
-    gl::Framebuffer surface_;
+    gl::Texture sample_depth_;
+    gl::Framebuffer surface_, samples_;
+    std::array<glm::vec4, 2> places_{glm::vec4(0.5f), glm::vec4(0.5f)};
 };
 
-/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first, where it leaves that through a wall, where it enters next.
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first and next. `exit` holds in place of the ground, for either, how
+/// long the way is from there to the ground or out again, and how high over the ground it ends (m); 0: it was not found.
 struct SurfaceTargets {
     CanopyTargets first, exit, second;
     void require(int width, int height);
@@ -89,7 +98,7 @@ private:
     void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const;
     void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
     [[nodiscard]] const Kinds& kinds_for(const Inputs& inputs);
-    gl::Program canopy_, choose_;
+    gl::Program canopy_, canopy_samples_, choose_;
     std::unique_ptr<gl::Program> fine_choose_; ///< with FINE_GROUND, made when first asked for
     Kinds kinds_;
     std::array<std::unique_ptr<Kinds>, 3> others_; ///< counting, fine, both: likewise

@@ -17,6 +17,7 @@ namespace sward::shells {
 
 namespace {
 
+constexpr int kEvenings = 8;       // passes, each over the facets around a vertex
 constexpr float kOwnSide = 0.1f; // cosine: a vertex's normal that is farther off its triangle's is not of this side of it
 
 glm::vec3 face_of(const scene::Mesh& mesh, const std::array<std::uint32_t, 3>& corners) {
@@ -65,6 +66,26 @@ std::vector<Face> covered_faces(const scene::Mesh& mesh, double slope_deg) {
     return faces;
 }
 
+/// Normals that lie on a lattice bend by steps, from facet to facet, which a lifted surface would show as folds.
+void even_out(std::vector<glm::mat3>& shapes, const std::vector<Face>& faces) {
+    std::vector<glm::mat3> sums(shapes.size());
+    std::vector<float> counts(shapes.size());
+    for (int pass = 0; pass < kEvenings; ++pass) {
+        std::fill(sums.begin(), sums.end(), glm::mat3(0));
+        std::fill(counts.begin(), counts.end(), 0.0f);
+        for (const Face& face : faces) {
+            const glm::mat3 mean = (shapes[face.corners[0]] + shapes[face.corners[1]] + shapes[face.corners[2]]) / 3.0f;
+            for (const std::uint32_t corner : face.corners) {
+                sums[corner] += mean;
+                ++counts[corner];
+            }
+        }
+        for (std::size_t i = 0; i < shapes.size(); ++i) {
+            shapes[i] = counts[i] > 0 ? sums[i] / counts[i] : shapes[i];
+        }
+    }
+}
+
 /// Mean shape operator at each vertex of the mesh.
 std::vector<glm::mat3> shapes_of(const scene::Mesh& mesh, const std::vector<Face>& faces) {
     std::vector<glm::mat3> sums(mesh.positions.size(), glm::mat3(0));
@@ -81,6 +102,7 @@ std::vector<glm::mat3> shapes_of(const scene::Mesh& mesh, const std::vector<Face
     for (std::size_t i = 0; i < sums.size(); ++i) {
         sums[i] /= std::max(areas[i], 1e-20f);
     }
+    even_out(sums, faces);
     return sums;
 }
 

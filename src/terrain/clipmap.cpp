@@ -70,18 +70,20 @@ gl::Texture level_texture(std::uint32_t format, int levels) {
 
 } // namespace
 
-Clipmap::Clipmap(const Surface& surface, const scene::DensityMask& mask)
-    : surface_(surface), windows_(static_cast<std::size_t>(level_count(surface.elevation()))),
-      elevation_(posts_texture(surface.elevation())), mask_(mask_texture(mask)),
-      heights_(level_texture(GL_R32F, levels())), surfaces_(level_texture(GL_RGBA8, levels())),
-      params_(sizeof(shared::SurfaceParams)), height_program_("clipmap height", {"terrain/clipmap_height.comp"}),
-      surface_program_("clipmap surface", {"terrain/clipmap_surface.comp"}), mask_first_(mask.first_m), mask_size_(mask.size_m),
-      mask_mode_(mask.width < 1 ? shared::kMaskNone : mask.bounded ? shared::kMaskBounded : shared::kMaskEndless) {
-    if (mask_size_.x <= 0 || mask_size_.y <= 0) { // spread over all of the posts
-        mask_size_ = surface.elevation().extent_m();
-        mask_first_ = -0.5 * mask_size_;
+GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& density)
+    : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)),
+      height_program("clipmap height", {"terrain/clipmap_height.comp"}), surface_program("clipmap surface", {"terrain/clipmap_surface.comp"}),
+      mask_first(density.first_m), mask_size(density.size_m),
+      mask_mode(density.width < 1 ? shared::kMaskNone : density.bounded ? shared::kMaskBounded : shared::kMaskEndless) {
+    if (mask_size.x <= 0 || mask_size.y <= 0) { // spread over all of the posts
+        mask_size = ground.elevation().extent_m();
+        mask_first = -0.5 * mask_size;
     }
 }
+
+Clipmap::Clipmap(const std::shared_ptr<GroundSource>& source)
+    : source_(source), windows_(static_cast<std::size_t>(level_count(source->surface.elevation()))), heights_(level_texture(GL_R32F, levels())),
+      surfaces_(level_texture(GL_RGBA8, levels())), params_(sizeof(shared::SurfaceParams)) {}
 
 void Clipmap::update(glm::dvec2 eye) {
     for (int level = 0; level < levels(); ++level) {
@@ -97,22 +99,22 @@ void Clipmap::update(glm::dvec2 eye) {
 }
 
 void Clipmap::fill(int level) {
-    const scene::Heightfield& posts = surface_.elevation();
+    const scene::Heightfield& posts = source_->surface.elevation();
     const auto index = static_cast<std::size_t>(level);
     shared::SurfaceParams params{};
     params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {surface_.relief_m(), 0, 0, 0};
+    params.relief = {source_->surface.relief_m(), 0, 0, 0};
     params.level = {windows_[index].first.x, windows_[index].first.y, level, 0};
     params.step = {spacing(level), 0, 0, 0};
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
-    elevation_.bind(TEX_ELEVATION);
+    source_->elevation.bind(TEX_ELEVATION);
     constexpr GLuint kGroups = shared::kClipCells / CLIP_GROUP;
-    height_program_.use();
+    source_->height_program.use();
     glBindImageTexture(0, heights_.id(), 0, GL_FALSE, level, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute(kGroups, kGroups, 1);
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
-    surface_program_.use();
+    source_->surface_program.use();
     heights_.bind(TEX_CLIP_HEIGHT);
     glBindImageTexture(0, surfaces_.id(), 0, GL_FALSE, level, GL_WRITE_ONLY, GL_RGBA8);
     glDispatchCompute(kGroups, kGroups, 1);
@@ -122,24 +124,24 @@ void Clipmap::fill(int level) {
 void Clipmap::bind() const {
     heights_.bind(TEX_CLIP_HEIGHT);
     surfaces_.bind(TEX_CLIP_SURFACE);
-    mask_.bind(TEX_MASK);
+    source_->mask.bind(TEX_MASK);
 }
 
 void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
-    const scene::Heightfield& posts = surface_.elevation();
+    const scene::Heightfield& posts = source_->surface.elevation();
     shared::SurfaceParams params{};
     params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {surface_.relief_m(), 0, anchor.x, anchor.y};
+    params.relief = {source_->surface.relief_m(), 0, anchor.x, anchor.y};
     params.step = {0, detail.start_m, detail.zoom, 0};
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
-    elevation_.bind(TEX_ELEVATION);
+    source_->elevation.bind(TEX_ELEVATION);
 }
 
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
     frame.clip_layout.x = levels();
-    frame.clip_layout.w = mask_mode_;
-    frame.mask_place = {glm::vec2((anchor - mask_first_) / mask_size_), glm::vec2(1.0 / mask_size_)};
+    frame.clip_layout.w = source_->mask_mode;
+    frame.mask_place = {glm::vec2((anchor - source_->mask_first) / source_->mask_size), glm::vec2(1.0 / source_->mask_size)};
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.
@@ -149,8 +151,8 @@ void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
 }
 
 void Clipmap::reload() {
-    height_program_.reload();
-    surface_program_.reload();
+    source_->height_program.reload();
+    source_->surface_program.reload();
     filled_ = false;
 }
 

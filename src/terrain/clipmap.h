@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -15,6 +16,17 @@
 
 namespace sward::terrain {
 
+/// What every clipmap of a land reads: its posts and its mask on the GPU, the programs that evaluate them.
+struct GroundSource {
+    /// `mask` may be empty (width 0): the slope rule. Throws Error(kOverLimit) when the posts exceed a texture.
+    GroundSource(const Surface& surface, const scene::DensityMask& mask);
+    const Surface& surface;
+    gl::Texture elevation, mask;
+    gl::Program height_program, surface_program;
+    glm::dvec2 mask_first, mask_size; ///< world metres
+    int mask_mode;                    ///< kMask*
+};
+
 /// The ground around the eye as nested grids (geometry clipmap, Losasso & Hoppe 2004): level k has kClipCells posts a side,
 /// 0.5 m * 2^k apart, in textures that wrap around, so that moving the eye moves no post. shaders/lib/ground.glsl reads it.
 class Clipmap {
@@ -28,8 +40,10 @@ public:
         bool operator==(const Window&) const = default;
     };
 
-    /// `mask` may be empty (width 0): the slope rule. Throws Error(kOverLimit) when the posts exceed a texture.
-    Clipmap(const Surface& surface, const scene::DensityMask& mask);
+    /// Of a land that others look at too.
+    explicit Clipmap(const std::shared_ptr<GroundSource>& source);
+    /// Of one of its own. Throws Error as GroundSource does.
+    Clipmap(const Surface& surface, const scene::DensityMask& mask) : Clipmap(std::make_shared<GroundSource>(surface, mask)) {}
 
     /// Brings every level's window around the eye (world metres); recomputes the levels that moved.
     void update(glm::dvec2 eye);
@@ -43,18 +57,18 @@ public:
     [[nodiscard]] static double spacing(int level) { return kFinest_m * static_cast<double>(1 << level); }
     [[nodiscard]] const Window& window(int level) const { return windows_[static_cast<std::size_t>(level)]; }
     [[nodiscard]] const gl::Texture& heights() const { return heights_; }
+    /// Recompiles the source's programs, and fills all levels with the next update.
     void reload();
+    /// Fills all levels with the next update: another clipmap has recompiled the source's programs.
+    void refill() { filled_ = false; }
 
 private:
     void fill(int level);
-    const Surface& surface_;
+    std::shared_ptr<GroundSource> source_;
     std::vector<Window> windows_;
     bool filled_ = false;
-    gl::Texture elevation_, mask_, heights_, surfaces_;
+    gl::Texture heights_, surfaces_;
     gl::Buffer params_;
-    gl::Program height_program_, surface_program_;
-    glm::dvec2 mask_first_, mask_size_; ///< world metres
-    int mask_mode_;                     ///< kMask*
 };
 
 } // namespace sward::terrain

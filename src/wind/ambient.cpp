@@ -2,6 +2,7 @@
 #include "wind/ambient.h"
 
 #include <cmath>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -17,18 +18,24 @@ constexpr double kDrawn = 0.25; // share of a turn-over in which the fluid is dr
 constexpr float kAnySpeed = shared::kWindCeiling_ms;
 } // namespace
 
-AmbientTile::AmbientTile(const scene::WindSpec& spec)
-    : seed_(static_cast<std::uint64_t>(spec.seed)), strength_ms_(kGustShare * spec.gust * spec.speed_ms) {
+AmbientTile::AmbientTile(const scene::WindSpec& spec) : AmbientTile(spec, nullptr, 0) {}
+
+AmbientTile::AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first) : AmbientTile(spec, other.spectrum_, first) {}
+
+AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first)
+    : seed_(static_cast<std::uint64_t>(spec.seed)), strength_ms_(kGustShare * spec.gust * spec.speed_ms), spectrum_(std::move(spectrum)) {
     tag_.step_s = kStep_s;
     tag_.cells = kCells;
     tag_.cell_m = kCell_m;
     if (strength_ms_ > 0) {
-        spectrum_ = gust_spectrum(kCells, kPeakWaves, seed_);
+        if (!spectrum_) {
+            spectrum_ = std::make_shared<const GustSpectrum>(gust_spectrum(kCells, kPeakWaves, seed_));
+        }
         initial_ = gl::Buffer(sizeof(glm::vec4) * kCells * kCells);
     } else {
         initial_ = gl::Buffer(sizeof(glm::vec4)); // bound, not read
     }
-    begin(0);
+    begin(first);
 }
 
 /// Gusts turn over in the time that one of them takes to pass its own length at its own speed.
@@ -48,7 +55,7 @@ void AmbientTile::begin(std::int64_t first) {
     if (strength_ms_ <= 0 || known) {
         return;
     }
-    spectrum_.velocities(phases(first), u_, v_);
+    spectrum_->velocities(phases(first), u_, v_);
     const auto strength = static_cast<float>(strength_ms_);
     for (std::size_t i = 0; i < u_.size(); ++i) {
         u_[i] *= strength;
@@ -71,7 +78,7 @@ void AmbientTile::step() {
             if (!target_.id()) {
                 target_ = gl::Buffer(kGustGroups * kCells * kCells * sizeof(glm::vec2));
                 for (std::size_t g = 0; g < kGustGroups; ++g) {
-                    const auto& stream = spectrum_.stream[g];
+                    const auto& stream = spectrum_->stream[g];
                     target_.upload(stream.data(), stream.size() * sizeof(glm::vec2), g * stream.size() * sizeof(glm::vec2));
                 }
                 totals_ = gl::Buffer(4 * sizeof(float));

@@ -23,6 +23,8 @@ public:
     static constexpr double kGustShare = 0.45; // root mean square of a component at gust 1, of the mean speed
 
     explicit AmbientTile(const scene::WindSpec& spec);
+    /// Of the same seed as `other`, whose spectrum it shares, for another wind; begins at state `first`.
+    AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first);
 
     /// Root mean square of the gusts (m/s a component); 0: there are none, and nothing is ever stepped.
     [[nodiscard]] double strength_ms() const { return strength_ms_; }
@@ -42,11 +44,12 @@ public:
     [[nodiscard]] double loudest_ms() const override { return 0; }
 
 private:
+    AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first);
     [[nodiscard]] std::array<double, kGustGroups> phases(std::int64_t state) const;
     std::uint64_t seed_;
     double strength_ms_;
     StateTag tag_;
-    GustSpectrum spectrum_;
+    std::shared_ptr<const GustSpectrum> spectrum_; ///< null where there are no gusts
     std::vector<float> u_, v_; ///< the first state
     std::vector<glm::vec4> initial_cells_;
     gl::Buffer initial_, target_, totals_;

@@ -316,6 +316,11 @@ void Fluid::solve(int iterations) {
     }
 }
 
+void Fluid::set_mean(glm::dvec2 mean_ms) {
+    settings_.mean_ms = mean_ms;
+    constants_.mean = glm::vec4(glm::vec2(mean_ms), constants_.mean.z, constants_.mean.w); // uploaded by step()
+}
+
 void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_ms) {
     time_s_ = time_s;
     const double loudest = inputs.loudest_ms();

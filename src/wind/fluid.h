@@ -37,6 +37,8 @@ public:
 
     /// Replaces all velocities (m/s), `cells` squared each, in storage order; publishes them as the first state.
     void set_state(std::span<const float> u, std::span<const float> v);
+    /// Another mean wind (m/s) from the next step on.
+    void set_mean(glm::dvec2 mean_ms);
     /// Moves the window so that its north-west cell is world cell `first`. Cells that stay keep their bits; those that come
     /// take the ambient wind of `rim`, whose anchor is the new corner.
     void move_to(glm::ivec2 first, const shared::WindField& rim);

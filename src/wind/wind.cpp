@@ -31,27 +31,32 @@ glm::dvec2 cpu_tap(const shared::WindTap& tap, std::span<const glm::vec4> cells,
     return shared::wind_tap_velocity(tap, fetch(tap.at.x), fetch(tap.at.y), fetch(tap.at.z), fetch(tap.at.w), latest);
 }
 
-} // namespace
-
-Wind::Wind(const scene::WindSpec& spec, double response, std::unique_ptr<FluidInputs> inputs)
-    : spec_(spec), response_(response), inputs_(std::move(inputs)), ambient_(spec), ambient_back_(ambient_.cells().bytes()) {
+glm::dvec2 mean_of(const scene::WindSpec& spec) {
     const double from = spec.direction_deg * kTwoPi / 360; // where it comes from, clockwise from north (-z)
     // Gusts lengthen the mean velocity to the mean speed: half of that is taken off, so that both are near speed_ms.
     const double turbulence = AmbientTile::kGustShare * spec.gust;
-    mean_ = glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_ms * (1 - 0.25 * turbulence * turbulence);
+    return glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_ms * (1 - 0.25 * turbulence * turbulence);
+}
+
+constexpr double kMostGain = 3; // faint gusts are no strong ones drawn small
+
+} // namespace
+
+Wind::Wind(const scene::WindSpec& spec, double response, std::unique_ptr<FluidInputs> inputs)
+    : spec_(spec), response_(response), mean_(mean_of(spec)), inputs_(std::move(inputs)) {
+    glCreateTextures(GL_TEXTURE_BUFFER, 2, textures_);
+    begin_gusts(std::make_unique<AmbientTile>(spec));
     for (int layer = 0; layer < shared::kWindLayers; ++layer) {
         const auto random = [&](std::uint64_t n) { return base::hash_unit(static_cast<std::uint64_t>(spec.seed), 0x1a7e, static_cast<std::uint64_t>(layer) * 2 + n); };
         shift_[layer] = glm::dvec2(random(0), random(1)) * static_cast<double>(AmbientTile::kCells);
     }
-    glCreateTextures(GL_TEXTURE_BUFFER, 2, textures_);
-    point_textures();
 }
 
 Wind::~Wind() { glDeleteTextures(2, textures_); }
 
 void Wind::point_textures() {
-    glTextureBuffer(textures_[0], GL_RGBA32F, ambient_.cells().id());
-    glTextureBuffer(textures_[1], GL_RGBA32F, window_ ? window_->fluid().cells().id() : ambient_.cells().id());
+    glTextureBuffer(textures_[0], GL_RGBA32F, ambient_->cells().id());
+    glTextureBuffer(textures_[1], GL_RGBA32F, window_ ? window_->fluid().cells().id() : ambient_->cells().id());
 }
 
 void Wind::bind() const {
@@ -62,16 +67,17 @@ void Wind::bind() const {
 shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag& ambient, const StateTag& window) const {
     shared::WindField field{};
     field.mean = {mean_.x, mean_.y, 0, response_};
-    if (ambient_.strength_ms() > 0) {
+    if (ambient_->strength_ms() > 0) {
         const double n = ambient.cells;
         field.ambient = {n, ambient.share(time_s), 0, 0};
-        const glm::dvec2 carried = anchor - mean_ * time_s;
+        const glm::dvec2 from = anchor - carried(time_s);
+        const double gain = gust_gain(time_s);
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
             const double cell = ambient.cell_m * kLayerScale[layer], c = std::cos(kLayerTurn[layer]) / cell, s = std::sin(kLayerTurn[layer]) / cell;
-            const glm::dvec2 place = glm::dvec2(c * carried.x + s * carried.y, -s * carried.x + c * carried.y) + shift_[layer];
+            const glm::dvec2 place = glm::dvec2(c * from.x + s * from.y, -s * from.x + c * from.y) + shift_[layer];
             const glm::dvec2 wrapped = place - n * glm::floor(place / n);
             field.layers[layer] = {wrapped.x, wrapped.y, c, s};
-            field.weights[layer] = static_cast<float>(kLayerWeight[layer]);
+            field.weights[layer] = static_cast<float>(kLayerWeight[layer] * gain);
             field.weights[layer + 2] = static_cast<float>(cell);
         }
     }
@@ -85,19 +91,19 @@ shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag
 }
 
 shared::WindField Wind::field(glm::dvec2 anchor, double time_s) const {
-    return compose(anchor, time_s, ambient_.tag(), window_ ? window_->tag() : StateTag{});
+    return compose(anchor, time_s, ambient_->tag(), window_ ? window_->tag() : StateTag{});
 }
 
 glm::dvec2 Wind::at(double x, double z, double time_s) const {
-    const bool ambient_landed = ambient_back_.landed(), window_landed = window_back_ && window_back_->landed();
+    const bool ambient_landed = ambient_back_->landed(), window_landed = window_back_ && window_back_->landed();
     StateTag first;
     first.step_s = AmbientTile::kStep_s;
     first.cells = AmbientTile::kCells;
     first.cell_m = AmbientTile::kCell_m;
-    const shared::WindField field = compose({x, z}, time_s, ambient_landed ? ambient_back_.tag() : first, window_landed ? window_back_->tag() : StateTag{});
+    const shared::WindField field = compose({x, z}, time_s, ambient_landed ? ambient_back_->tag() : first, window_landed ? window_back_->tag() : StateTag{});
     glm::dvec2 sum(field.mean.x, field.mean.y);
     if (field.ambient.x > 0) {
-        const std::span<const glm::vec4> cells = ambient_landed ? ambient_back_.cells() : std::span<const glm::vec4>(ambient_.initial());
+        const std::span<const glm::vec4> cells = ambient_landed ? ambient_back_->cells() : std::span<const glm::vec4>(ambient_->initial());
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
             const shared::WindTap tap = shared::wind_tile_tap(field.ambient.x, shared::wind_layer_place(field, layer, glm::vec2(0)));
             sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.ambient.y)));
@@ -116,9 +122,12 @@ void Wind::restart(double time_s) {
     if (start > 0) {
         base::log_info(fmt::format("wind: a leap to {:.0f} s begins {:.0f} s before it", time_s, kRunUp_s));
     }
-    ambient_.begin(static_cast<std::int64_t>(start / AmbientTile::kStep_s));
+    if (change_ != Change::kNone) { // a new beginning is the new wind's
+        begin_gusts(std::make_unique<AmbientTile>(spec_, *ambient_, 0));
+    }
+    ambient_->begin(static_cast<std::int64_t>(start / AmbientTile::kStep_s));
     window_.reset();
-    ambient_back_.clear();
+    ambient_back_->clear();
     window_back_.reset();
     eye_.reset();
     time_s_ = start;
@@ -126,11 +135,11 @@ void Wind::restart(double time_s) {
 }
 
 void Wind::step_ambient(double time_s) {
-    if (ambient_.strength_ms() > 0) {
-        while (ambient_.tag().latest < steps_for(time_s, AmbientTile::kStep_s)) {
-            ambient_.step();
+    if (ambient_->strength_ms() > 0) {
+        while (ambient_->tag().latest < steps_for(time_s, AmbientTile::kStep_s)) {
+            ambient_->step();
         }
-        glTextureBuffer(textures_[0], GL_RGBA32F, ambient_.cells().id());
+        glTextureBuffer(textures_[0], GL_RGBA32F, ambient_->cells().id());
     }
 }
 
@@ -140,7 +149,7 @@ void Wind::advance_window(double time_s, glm::dvec2 eye, int most_steps) {
         window_back_.reset();
         return;
     }
-    const auto ambient_at = [&](glm::dvec2 corner, double when) { return compose(corner, when, ambient_.tag(), StateTag{}); };
+    const auto ambient_at = [&](glm::dvec2 corner, double when) { return compose(corner, when, ambient_->tag(), StateTag{}); };
     if (!window_) {
         window_ = std::make_unique<Window>(spec_, mean_);
         const std::int64_t first = steps_for(time_s_, spec_.step_s);
@@ -168,16 +177,17 @@ void Wind::advance(double time_s, glm::dvec2 eye, int most_steps) {
     }
     time_s = std::max(time_s, 0.0);
     const double covered = window_ ? std::max(time_s, static_cast<double>(window_->tag().latest) * spec_.step_s) : time_s;
-    const bool back = time_s < time_s_ && (steps_for(covered, AmbientTile::kStep_s) < ambient_.tag().latest ||
+    const bool back = time_s < time_s_ && (steps_for(covered, AmbientTile::kStep_s) < ambient_->tag().latest ||
                                            (window_ && steps_for(time_s, spec_.step_s) < window_->tag().latest));
     if (back || time_s - time_s_ > kLeap_s) {
         restart(time_s);
     }
-    const std::int64_t ambient_before = ambient_.tag().latest, window_before = window_ ? window_->tag().latest : -1;
+    const std::int64_t ambient_before = ambient_->tag().latest, window_before = window_ ? window_->tag().latest : -1;
     advance_window(time_s, eye, most_steps);
     step_ambient(time_s);
-    if (ambient_.tag().latest != ambient_before) {
-        ambient_back_.start(ambient_.cells(), ambient_.tag());
+    settle(time_s);
+    if (ambient_->tag().latest != ambient_before) {
+        ambient_back_->start(ambient_->cells(), ambient_->tag());
     }
     if (window_ && window_->tag().latest != window_before) {
         if (!window_back_) {
@@ -186,7 +196,7 @@ void Wind::advance(double time_s, glm::dvec2 eye, int most_steps) {
         window_back_->start(window_->fluid().cells(), window_->tag());
     }
     point_textures();
-    ambient_back_.poll();
+    ambient_back_->poll();
     if (window_back_) {
         window_back_->poll();
     }
@@ -196,10 +206,10 @@ void Wind::advance(double time_s, glm::dvec2 eye, int most_steps) {
 
 void Wind::wait() {
     // A copy may not have found a free slot: what waits is taken first, then the present states follow.
-    ambient_back_.poll(true);
-    if (!ambient_back_.landed() || ambient_back_.tag().latest != ambient_.tag().latest) {
-        ambient_back_.start(ambient_.cells(), ambient_.tag());
-        ambient_back_.poll(true);
+    ambient_back_->poll(true);
+    if (!ambient_back_->landed() || ambient_back_->tag().latest != ambient_->tag().latest) {
+        ambient_back_->start(ambient_->cells(), ambient_->tag());
+        ambient_back_->poll(true);
     }
     if (window_back_) {
         window_back_->poll(true);
@@ -214,8 +224,85 @@ double Wind::lag_s(double time_s) const {
     return window_ ? std::max(0.0, time_s - static_cast<double>(window_->tag().latest) * spec_.step_s) : 0;
 }
 
+double Wind::gust_gain(double time_s) const {
+    const double share = glm::clamp((time_s - change_s_) / kFade_s, 0.0, 1.0);
+    switch (change_) {
+    case Change::kNone: return 1;
+    case Change::kBlows: return gain_;
+    case Change::kFades: return gain_ * (1 - share);
+    case Change::kComes: return share;
+    }
+    return 1;
+}
+
+/// Of a wind that began so, and has blown from time 0 on.
+void Wind::begin_gusts(std::unique_ptr<AmbientTile> tile) {
+    ambient_ = std::move(tile);
+    ambient_back_ = std::make_unique<ReadBack>(ambient_->cells().bytes());
+    next_.reset();
+    change_ = Change::kNone;
+    drift_ = glm::dvec2(0);
+    drift_from_s_ = 0;
+    gain_ = 1;
+    point_textures();
+}
+
+void Wind::set_mean(const MeanWind& wind) {
+    if (!(wind.speed_ms >= 0 && wind.speed_ms <= 60) || !(std::abs(wind.direction_deg) <= 1e6) || !(wind.gust >= 0 && wind.gust <= 1)) {
+        throw base::Error(base::ExitCode::kBadInput, fmt::format("wind: found {} m/s from {} degrees, gust {}, expected 0 to 60 m/s, a direction, gust 0 to 1",
+                                                                 wind.speed_ms, wind.direction_deg, wind.gust));
+    }
+    if (wind.speed_ms == spec_.speed_ms && wind.direction_deg == spec_.direction_deg && wind.gust == spec_.gust) {
+        return;
+    }
+    drift_ = carried(time_s_);
+    drift_from_s_ = time_s_;
+    // A change within a change goes on from what blows.
+    const double share = glm::clamp((time_s_ - change_s_) / kFade_s, 0.0, 1.0);
+    const double faded = change_ == Change::kFades ? 1 - share : change_ == Change::kComes ? share : 1;
+    spec_.speed_ms = wind.speed_ms;
+    spec_.direction_deg = wind.direction_deg;
+    spec_.gust = wind.gust;
+    mean_ = mean_of(spec_);
+    if (time_s_ == 0 && ambient_->tag().latest == 0) {
+        begin_gusts(std::make_unique<AmbientTile>(spec_, *ambient_, 0));
+    } else {
+        const double strength = AmbientTile::kGustShare * spec_.gust * spec_.speed_ms;
+        gain_ = ambient_->strength_ms() > 0 ? std::min(strength / ambient_->strength_ms(), kMostGain) * faded : 0;
+        change_ = Change::kBlows;
+        change_s_ = time_s_;
+        next_.reset();
+    }
+    if (window_) {
+        window_->set_mean(spec_, mean_);
+    }
+}
+
+/// The next stage of a change, once it is due.
+void Wind::settle(double time_s) {
+    const double since = time_s - change_s_;
+    const auto now = spec_.gust * spec_.speed_ms > 0 ? steps_for(time_s, AmbientTile::kStep_s) : 0; // air without gusts has no states
+    if (change_ == Change::kBlows && since >= kSettled_s && !next_) {
+        const double start = time_s > kLeap_s ? time_s - kRunUp_s : 0;
+        next_ = std::make_unique<AmbientTile>(spec_, *ambient_, static_cast<std::int64_t>(start / AmbientTile::kStep_s));
+    }
+    for (int i = 0; next_ && i < kCatchUp && next_->tag().latest < now; ++i) {
+        next_->step();
+    }
+    if (change_ == Change::kBlows && next_ && next_->tag().latest >= now) {
+        change_ = Change::kFades;
+        change_s_ = time_s;
+    } else if (change_ == Change::kFades && since >= kFade_s && next_->tag().latest >= now) {
+        begin_gusts(std::move(next_));
+        change_ = Change::kComes;
+        change_s_ = time_s;
+    } else if (change_ == Change::kComes && since >= kFade_s) {
+        change_ = Change::kNone;
+    }
+}
+
 void Wind::reload() {
-    ambient_.reload();
+    ambient_->reload();
     if (window_) {
         window_->reload();
     }

@@ -14,6 +14,13 @@
 
 namespace sward::wind {
 
+/// The wind far from all that is local: what a weather report says.
+struct MeanWind {
+    double speed_ms = 4;
+    double direction_deg = 270; ///< where it comes from
+    double gust = 0.4;          ///< 0 steady .. 1 violent
+};
+
 /// The wind of a scene: ambient gusts everywhere and, where something local stands or pushes, a window of fluid around the eye.
 /// wind_at() of the shaders and at() answer the same. Needs a current context in all but at() and field().
 class Wind {
@@ -27,6 +34,13 @@ public:
     /// its end. `most_steps` of the window in this call (0: any number); the window then lags behind. Throws
     /// base::Error(kBadInput) for a time or place that is not finite.
     void advance(double time_s, glm::dvec2 eye, int most_steps = 0);
+    /// Another mean wind, from the present time on: the air's speed is the new one at once, the gusts that are under way are carried on with it
+    /// and grow or weaken. Once it has not changed for kSettled_s, the gusts that a scene with this wind would have by now are made up for on the
+    /// side, kCatchUp steps a call of advance(), and take the place of the old ones while these fade. What then blows is bit for bit what a scene
+    /// blows that began so, but for the local window, in which the past dies away.
+    void set_mean(const MeanWind& wind);
+    /// Whether what blows is what a scene that began with the present mean wind blows.
+    [[nodiscard]] bool settled() const { return change_ == Change::kNone; }
     /// Binds what lib/wind.glsl reads. Before: advance().
     void bind() const;
     /// Constants for shaders whose xz are relative to `anchor` (world metres), at `time_s`, from the present states.
@@ -40,7 +54,7 @@ public:
 
     /// Null while nothing is local.
     [[nodiscard]] const Window* window() const { return window_.get(); }
-    [[nodiscard]] const AmbientTile& ambient() const { return ambient_; }
+    [[nodiscard]] const AmbientTile& ambient() const { return *ambient_; }
     [[nodiscard]] FluidInputs* inputs() const { return inputs_.get(); }
     [[nodiscard]] double lag_s(double time_s) const; ///< of the window behind a time; 0 without one
     /// Recompiles what is compiled; throws base::Error for the first that fails.
@@ -48,6 +62,9 @@ public:
 
     static constexpr double kLeap_s = 3600;  ///< longer leaps are not stepped through...
     static constexpr double kRunUp_s = 60;  ///< ...but for this long before their end
+    static constexpr double kSettled_s = 0.5; ///< that a changed wind blows before its gusts are made
+    static constexpr double kFade_s = 1;      ///< in which the old gusts fade, and again the new ones come
+    static constexpr int kCatchUp = 4;        ///< steps of the new gusts in a call; each costs about as one of the old
 
 private:
     void restart(double time_s);
@@ -55,19 +72,31 @@ private:
     void advance_window(double time_s, glm::dvec2 eye, int most_steps);
     [[nodiscard]] shared::WindField compose(glm::dvec2 anchor, double time_s, const StateTag& ambient, const StateTag& window) const;
     void point_textures();
+    [[nodiscard]] glm::dvec2 carried(double time_s) const { return drift_ + mean_ * (time_s - drift_from_s_); }
+    [[nodiscard]] double gust_gain(double time_s) const;
+    void begin_gusts(std::unique_ptr<AmbientTile> tile);
+    void settle(double time_s);
 
     scene::WindSpec spec_;
     double response_;
     glm::dvec2 mean_{0}; ///< m/s
     glm::dvec2 shift_[shared::kWindLayers]; ///< of the layers, cells
     std::unique_ptr<FluidInputs> inputs_;
-    AmbientTile ambient_;
+    std::unique_ptr<AmbientTile> ambient_;
     std::unique_ptr<Window> window_;
-    ReadBack ambient_back_;
+    std::unique_ptr<ReadBack> ambient_back_;
     std::unique_ptr<ReadBack> window_back_;
     double time_s_ = 0;
     std::optional<glm::dvec2> eye_;
     std::uint32_t textures_[2] = {0, 0};
+    // A change of the mean wind.
+    enum class Change { kNone, kBlows, kFades, kComes };
+    Change change_ = Change::kNone;
+    double change_s_ = 0;               ///< when it came to this
+    glm::dvec2 drift_{0};               ///< how far the air had been carried (m) at drift_from_s_
+    double drift_from_s_ = 0;
+    double gain_ = 1;                   ///< of the old gusts: to the new wind's strength
+    std::unique_ptr<AmbientTile> next_; ///< gusts that are made up for
 };
 
 } // namespace sward::wind

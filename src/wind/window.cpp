@@ -21,10 +21,17 @@ FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_ms) {
     return settings;
 }
 
+double calm_of(const scene::WindSpec& spec) { return kCalm_ms + kCalmOfMean * spec.speed_ms * (1 + spec.gust); }
+
 } // namespace
 
+void Window::set_mean(const scene::WindSpec& spec, glm::dvec2 mean_ms) {
+    calm_ms_ = calm_of(spec);
+    fluid_.set_mean(mean_ms);
+}
+
 Window::Window(const scene::WindSpec& spec, glm::dvec2 mean_ms)
-    : fluid_(settings_of(spec, mean_ms)), calm_ms_(kCalm_ms + kCalmOfMean * spec.speed_ms * (1 + spec.gust)) {
+    : fluid_(settings_of(spec, mean_ms)), calm_ms_(calm_of(spec)) {
     tag_.step_s = spec.step_s;
     tag_.cells = spec.cells;
     tag_.cell_m = spec.cell_m;

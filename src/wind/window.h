@@ -13,6 +13,8 @@ public:
     static constexpr int kMoveCells = 8; ///< it moves when the eye is so far from its centre: rarely, and by less than the rim's blend
 
     explicit Window(const scene::WindSpec& spec, glm::dvec2 mean_ms);
+    /// Another wind from the next step on; of `spec` speed and gust alone.
+    void set_mean(const scene::WindSpec& spec, glm::dvec2 mean_ms);
 
     /// Stands around `eye` with the ambient wind in it, at state `first`.
     void begin(glm::dvec2 eye, std::int64_t first, const shared::WindField& ambient);

@@ -50,12 +50,19 @@ class Cache(CliCase):
             self.assertTrue(first == again)
             self.assertEqual({p.name: p.read_bytes() for p in self.baked()[0].iterdir()}, content)
 
-    def test_older_than_texgen(self):
+    def test_of_another_texgen(self):
+        """What counts is which texgen baked a set, not when: a clock may be wrong."""
         self.picture()
         made = self.baked()[0] / "set.json"
         os.utime(made, (1, 1))
-        self.picture()
+        _, said = self.picture()
+        self.assertEqual((said, made.stat().st_mtime), ("", 1))
+        note = made.parent.with_suffix(".texgen")
+        note.write_text("0" * 64)
+        _, said = self.picture()
+        self.assertIn("baked on first use", said)
         self.assertGreater(made.stat().st_mtime, 1)
+        self.assertEqual(self.picture()[1], "")
 
     def test_two_at_once(self):
         """The second waits for the first, and both draw the same."""

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults from outside: no GPU, broken shaders, signals, kill -9, two writers."""
 import os
+import resource
 import shutil
 import signal
 import threading
@@ -163,6 +164,55 @@ class Signals(CliCase):
 
         self.assert_done(self.render(limits=ignore))
         self.assertTrue(os.path.getsize(self.dir / "out.png"))
+
+
+class Room(CliCase):
+    """Little memory, no threads, few file handles: the contract's one line and code, or the work is done."""
+
+    def setUp(self):
+        super().setUp()
+        self.scene()
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+
+    @staticmethod
+    def commands():
+        bake = ("texgen", "tiny.toml", "-o", "made/set", "-q", "--no-preview", "--no-volume", "--threads", "2")
+        return [("texgen", "--version"), ("sward", "info", "scene.toml"), ("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE), bake]
+
+    def hold(self, codes, limits, prefix=(), env=None):
+        """Every command ends with one of the codes, in one line unless it is 0, and leaves nothing then."""
+        for command in self.commands():
+            with self.subTest(command=command[:2]):
+                before = sward_cli.snapshot(self.dir)
+                result = sward_cli.run(*command, cwd=self.dir, limits=limits, prefix=prefix, env=env)
+                if result.code == 127 and "shared libraries" in result.err:
+                    continue  # not begun: the system's loader speaks
+                self.assertIn(result.code, (0, *codes), result.err)
+                if result.code == 0:
+                    (self.dir / "out.png").unlink(missing_ok=True)
+                    shutil.rmtree(self.dir / "made", ignore_errors=True)
+                    continue
+                self.assertEqual(len(result.err.splitlines()), 1, result.err)
+                self.assertTrue(result.err.startswith("error: "), result.err)
+                self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_little_memory(self):
+        env = environment(MESA_SHADER_CACHE_DISABLE="true")
+        for most in (400_000, 600_000):
+            with self.subTest(kib=most):
+                self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 10, most << 10)), env=env)
+
+    def test_no_threads(self):
+        user = ()
+        if os.geteuid() == 0:  # the limit counts for users only
+            keep = "+dac_override"
+            user = ("setpriv", "--reuid", "64123", "--inh-caps", keep, "--ambient-caps", keep, "--bounding-set", "-all," + keep)
+        self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_NPROC, (1, 1)), prefix=user)
+
+    def test_few_handles(self):
+        for most in (4, 6, 9, 12):
+            with self.subTest(handles=most):
+                self.hold({5}, lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (most, most)))
 
 
 if __name__ == "__main__":

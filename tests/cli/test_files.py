@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hostile files: whatever a scene, its elevation, its mask, its set or a preset may be, one line names the file."""
+import base64
+import json
 import os
 import shutil
 import struct
@@ -205,6 +207,41 @@ class Files(CliCase):
                 self.assertIn(result.code, (3, 4), result.err)
                 self.assert_refusal(result, result.code, "grass.toml", key)
                 self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+
+class Messages(CliCase):
+    """Each names the file, what was found and what was expected, where a library would have said something else."""
+
+    def gltf(self, buffer, version="2.0"):
+        """A triangle in a buffer, as the surface of a scene; the scene's name."""
+        view = {"buffer": 0, "byteLength": 36}
+        accessor = {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 0, 1]}
+        root = {"asset": {"version": version}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}], "accessors": [accessor], "bufferViews": [view],
+                "buffers": [{"byteLength": 36, **buffer}]}
+        (self.dir / "m.gltf").write_text(json.dumps(root))
+        (self.dir / "scene.toml").write_text("[terrain]\nsurface = \"m.gltf\"\n")
+        return "scene.toml"
+
+    def test_gltf(self):
+        points = base64.b64encode(struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 0, 1)).decode()
+        whole = {"uri": "data:application/octet-stream;base64," + points}
+        self.assert_done(self.sward("info", self.gltf(whole)))
+        self.refuse(3, ["m.gltf", "asset.version: found \"1.0\", expected \"2.0\""], "info", self.gltf(whole, "1.0"))
+        self.refuse(3, ["m.gltf", "buffer's URI: found \"\", expected the name of a file"], "info", self.gltf({"uri": ""}))
+        self.refuse(3, ["m.gltf", "buffer's URI: found none"], "info", self.gltf({}))
+        for uri in ("data:;base64", "data:;base64," + points, "data:text/html;base64," + points, "data:"):
+            self.refuse(3, ["m.gltf", "buffer's URI: found data:", "expected data:application/octet-stream;base64"], "info", self.gltf({"uri": uri}))
+        self.refuse(5, ["m.gltf: buffer ", "gone.bin", "No such file"], "info", self.gltf({"uri": "gone.bin"}))
+
+    def test_empty_keys(self):
+        self.scene()
+        for text, name in ((SCENE.replace("[grass]", "\"\" = 1\n[grass]"), 'terrain.""'), ("\"\" = 1\n" + SCENE, '""')):
+            (self.dir / "scene.toml").write_text(text)
+            self.refuse(3, ["scene.toml:", f"unknown key: found {name}, expected"], "info", "scene.toml")
+        for text in ('"" = 1\n', '[blade]\n"" = 1\n'):
+            (self.dir / "p.toml").write_text(text)
+            self.refuse(3, ["p.toml:", 'unknown key: found "", expected'], "p.toml", "--dry-run", program="texgen")
 
 
 if __name__ == "__main__":

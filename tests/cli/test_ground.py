@@ -159,6 +159,23 @@ class Ground(CliCase):
             self.assertLess(picture[j, 159:161].min(), 0.1, j)
             self.assertGreater(picture[j, 100:130].mean(), 0.15, j)
 
+    def test_classes_as_an_ascii_grid(self):
+        """Landcover as text, with a `.prj` in place; garbage in it is refused with its line, as of heights."""
+        geotiff(self.dir / "height.tif", 65, 65, lambda i, j: 100, "f", UTM32, (10, 0, 500000, 0, -10, 5500000))
+        rows = "\n".join(" ".join("30" if i < 16 else "-9999" if i < 20 else "7" for i in range(65)) for _ in range(65))
+        head = "ncols 65\nnrows 65\nxllcorner 500000\nyllcorner 5499350\ncellsize 10\n"
+        (self.dir / "cover.asc").write_text(head + rows + "\n")
+        (self.dir / "cover.prj").write_text("PROJCS[\"UTM32\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+                                            "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION[\"Transverse_Mercator\"],"
+                                            "PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",9],PARAMETER[\"scale_factor\",0.9996],"
+                                            "PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0],UNIT[\"metre\",1]]")
+        self.terrain('mask = "cover.asc"\n[terrain.classes]\n30 = 1.0\n7 = 0.5')
+        shares = {name: float(value.split()[0]) for name, value in self.info().items() if name.startswith(("class", "no value"))}
+        for name, wanted in (("class 30", 15.5 / 64), ("class 7", 44.5 / 64), ("no value", 4 / 64)):
+            self.assertAlmostEqual(shares[name], 100 * wanted, delta=0.5)
+        (self.dir / "cover.asc").write_text(head + rows[:-1] + "x\n")
+        self.refuse(3, ["cover.asc:70", "x"], "info", "scene.toml")
+
     def test_vertical_units_and_voids(self):
         geotiff(self.dir / "height.tif", 33, 33, lambda i, j: -32000 if i == j == 16 else 100, "h", UTM32, (10, 0, 500000, 0, -10, 5500000))
         self.terrain()

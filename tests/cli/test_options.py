@@ -64,6 +64,16 @@ class Options(CliCase):
         self.refuse_render(2, ["--camera", "--path"], "--camera", "road", "--path", "roll")
         self.refuse_render(2, ["\\n"], "two\nlines")
 
+    def test_a_wrong_option_is_blamed(self):
+        self.scene()
+        for words in (["render", "scene.toml", "-n", "8", "-o", "out.png"], ["-n", "8", "render", "scene.toml", "-o", "out.png"],
+                      ["render", "-n", "8", "scene.toml"], ["view", "-n", "8"], ["wind", "scene.toml", "-n", "8"], ["bench", "-n", "8"],
+                      ["info", "-n", "8"]):
+            with self.subTest(words=words):
+                self.refuse(2, ["error: -n: found an unknown option", "--help"], *words)
+        self.refuse_render(2, ["error: --sise: found an unknown option", "perhaps --size"], "--sise", "64x36")
+        self.refuse(2, ["error: --output: found \"--size\""], "render", "scene.toml", "-o", "--size", "64x36")
+
     def test_aovs(self):
         self.scene()
         self.refuse_render(2, ["--output", "exr"], "--aov", "depth")

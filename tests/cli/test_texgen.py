@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """texgen as a tool: options, reports, inspect and verify, the same bytes at any number of threads."""
+import hashlib
 import json
 import re
 import shutil
+import struct
 
 import sward_cli
 from sward_cli import CliCase
@@ -66,6 +68,19 @@ class Options(TexgenCase):
         self.refuse_texgen(2, ["extra"], "verify", "set", "extra")
         self.refuse_texgen(2, ["before"], "-q", "verify", "set")
         self.refuse_texgen(5, ["no-such", "meadow"], "no-such", "-o", "set")
+
+    def test_a_wrong_option_is_blamed(self):
+        """The option that there is not, and not the value after it or what is missing because of it."""
+        for words in (["tiny.toml", "-n", "8", "-o", "set"], ["-n", "8", "tiny.toml", "-o", "set"], ["tiny.toml", "-n", "8"],
+                      ["seam", "a.png", "-n", "8", "-o", "b.png"], ["seam", "a.png", "-n", "8"], ["import", "-n", "8", "a.vdb", "-o", "set"],
+                      ["export", "set", "-n", "8"], ["inspect", "set", "-n", "8"], ["verify", "-n", "8", "set"], ["import", "-n", "-up", "q"]):
+            with self.subTest(words=words):
+                self.refuse_texgen(2, ["error: -n: found an unknown option", "--help"], *words)
+        self.refuse_texgen(2, ["error: --sise: found an unknown option", "perhaps --size"], "tiny.toml", "--sise", "64", "-o", "set")
+        self.refuse_texgen(2, ["error: --sizes=64: found", "perhaps --size"], "import", "a.vdb", "-o", "set", "--sizes=64")
+        self.refuse_texgen(2, ["error: --output: found \"--size\""], "tiny.toml", "-o", "--size", "64")
+        self.refuse_texgen(2, ["error: --size: found \"--levels\""], "tiny.toml", "-o", "set", "--size", "--levels", "2")
+        self.refuse_texgen(2, ["--output", "2 times"], "tiny.toml", "-o", "set", "-o", "other")
 
     def test_preset_values(self):
         """Nonsense in the preset is refused with file, line, key, value and range."""
@@ -301,6 +316,49 @@ class Verify(TexgenCase):
         path.unlink()
         self.refuse_texgen(3, ["set.json"], "verify", "set")
         self.refuse_texgen(5, ["no-such"], "verify", "no-such")
+
+    def test_blades_with_vectors(self):
+        """blades.glb as sets held it once, with vectors in one attribute, holds the same blades."""
+        path = self.dir / "set"
+        self.bake("set", *FAST)
+        glb = (path / "blades.glb").read_bytes()
+        self.assertEqual(glb.count(b'"_V1_X"'), 1)
+        size, = struct.unpack_from("<I", glb, 12)
+        root, data = json.loads(glb[20:20 + size]), bytearray(glb[28 + size:])
+        attributes = root["meshes"][0]["primitives"][0]["attributes"]
+        for name in ("_V1", "_V2"):
+            parts = []
+            for axis in "XYZ":
+                view = root["bufferViews"][root["accessors"][attributes.pop(f"{name}_{axis}")]["bufferView"]]
+                at = view.get("byteOffset", 0)
+                parts.append(struct.unpack(f"<{view['byteLength'] // 4}f", data[at:at + view["byteLength"]]))
+            values = [v for point in zip(*parts, strict=True) for v in point]
+            root["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(values)})
+            root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5126, "count": len(values) // 3, "type": "VEC3"})
+            attributes[name] = len(root["accessors"]) - 1
+            data += struct.pack(f"<{len(values)}f", *values)
+        root["buffers"][0]["byteLength"] = len(data)
+        self.assert_done(self.texgen("export", "set", "-o", "new", "--for", "gltf", "-q"))
+        self.replace(path, root, data)
+        self.assert_done(self.texgen("verify", "set", "-q"))
+        self.assert_done(self.texgen("export", "set", "-o", "old", "--for", "gltf", "-q"))
+        meshes = [(self.dir / name / "blades_mesh.glb").read_bytes() for name in ("new", "old")]
+        self.assertTrue(meshes[0] == meshes[1])
+        del attributes["_V2"]
+        self.replace(path, root, data)
+        self.refuse_texgen(3, ["blades.glb", "_V2"], "verify", "set")
+
+    @staticmethod
+    def replace(path, root, data):
+        """Another blades.glb of this JSON and data, listed as if it were the set's own."""
+        text = json.dumps(root).encode()
+        text += b" " * (-len(text) % 4)
+        glb = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data))
+        glb += struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        (path / "blades.glb").write_bytes(glb)
+        facts = json.loads((path / "set.json").read_text())
+        facts["files"]["blades.glb"] = {"bytes": len(glb), "sha256": hashlib.sha256(glb).hexdigest()}
+        (path / "set.json").write_text(json.dumps(facts))
 
     def test_foreign_file_is_told(self):
         (self.dir / "set/notes.txt").write_text("mine")

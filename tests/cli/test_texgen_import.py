@@ -231,6 +231,24 @@ class Hostile(ImportCase):
             with self.subTest(at=at):
                 self.refused("bad.vdb", "inspect", "bad.vdb")
 
+    def test_every_grid_is_looked_at(self):
+        """Damage in a grid that nobody asks for is told too; so is an end that is not where the table of grids says."""
+        values = posts(16, 4)
+        write_vdb(self.dir / "two.vdb", Grid("density", values), Grid("other", {at: (0.5,) for at in values}))
+        whole = (self.dir / "two.vdb").read_bytes()
+        self.assert_done(self.texgen("inspect", "two.vdb"))
+        leaf = len(whole) - 64 - 1 - 2048  # the last: mask, kind of its values, values
+        end = whole.rindex(struct.pack("<q", len(whole)))
+        for at, new in ((leaf, b"\xff" * 8), (leaf + 64, b"\x09"), (end, struct.pack("<q", len(whole) - 8))):
+            with self.subTest(at=at):
+                (self.dir / "bad.vdb").write_bytes(whole[:at] + new + whole[at + len(new):])
+                self.refuse_texgen(3, ["bad.vdb", "other"], "inspect", "bad.vdb")
+        rng = random.Random(7)
+        for size in (0, 64, 192, *(rng.randrange(len(whole)) for _ in range(20)), len(whole) - 1):
+            (self.dir / "cut.vdb").write_bytes(whole[:size])
+            with self.subTest(size=size):
+                self.refuse_texgen(3, ["cut.vdb"], "inspect", "cut.vdb")
+
     def test_bytes(self):
         whole = self.own_volume().read_bytes()
         rng = random.Random(6)

@@ -136,6 +136,7 @@ struct SmallWorld {
                   std::round(eye_at.z / 64) * 64};
         const glm::vec3 eye(eye_at - anchor);
         frame.clip_from_world = wide_view(eye);
+        frame.near_m = shared::kNear_m;
         frame.world_from_clip = glm::inverse(frame.clip_from_world);
         frame.eye = frame.lod_eye = glm::vec4(eye, 400);
         const glm::dvec2 flat(anchor.x, anchor.z),

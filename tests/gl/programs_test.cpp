@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "gl/fixture.h"
-#include "render/impl.h"
+#include "render/draw_passes.h"
 #include "terrain/terrain_pass.h"
 
 namespace sward::tests {
@@ -42,13 +42,15 @@ std::vector<Variant> variants() {
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
                                 {{"blades/wake.comp"}, {"SURFACE"}},
-                                {{"render/screen.vert", "render/tone_map.frag"}, {}}};
+                                {{"render/screen.vert", "render/tone_map.frag"}, {}},
+                                {{"render/screen.vert", "render/hand_out.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
         {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
         {"shells/far.vert", "shells/far.frag"},
         {"render/mesh.vert", "render/mesh.frag"},
         {"render/screen.vert", "render/sky.frag"},
+        {"render/screen.vert", "render/host_scene.frag"},
         {"render/screen.vert", "render/resolve.frag"}};
     for (const auto& stages : with_aov) {
         all.push_back({stages, {}});
@@ -73,6 +75,7 @@ std::vector<Variant> variants() {
         all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
     }
     all.push_back({{"shells/canopy.vert", "shells/canopy.frag"}, {}});
+    all.push_back({{"shells/canopy.vert"}, {}});
     all.push_back({{"shells/march.vert", "shells/march_choose.frag"}, {}});
     all.push_back({{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}, {}});
     all.push_back({{"shells/march.vert", "shells/march_choose.frag"}, {"SURFACE"}});
@@ -147,7 +150,8 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
                                                          {"WindGridBlock", BIND_WIND_GRID},
                                                          {"WindFieldBlock", BIND_WIND_FIELD},
                                                          {"PhysicsBlock", BIND_PHYSICS},
-                                                         {"MarchBlock", BIND_MARCH}};
+                                                         {"MarchBlock", BIND_MARCH},
+                                                         {"SharesBlock", BIND_FAR_SHARES}};
     // The wind's passes run before all others and share their binding points among themselves.
     const std::map<std::string, GLint> storage_blocks = {
         {"WindU", BIND_WIND_U},
@@ -230,9 +234,10 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"fibres", TEX_MARCH_FIBRES},
                                                 {"correction", TEX_MARCH_CORRECTION},
                                                 {"canopy_depth", TEX_CANOPY_DEPTH},
+                                                {"canopy_samples", TEX_CANOPY_SAMPLES},
                                                 {"canopy_ground", TEX_CANOPY_GROUND},
                                                 {"canopy_air", TEX_CANOPY_AIR},
-                                                {"canopy_exit", TEX_CANOPY_EXIT},
+                                                {"canopy_exits", TEX_CANOPY_EXIT},
                                                 {"second_depth", TEX_SECOND_DEPTH},
                                                 {"second_ground", TEX_SECOND_GROUND},
                                                 {"second_air", TEX_SECOND_AIR},
@@ -249,7 +254,11 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"scene_data", TEX_RESOLVE_DATA},
                                                 {"scene_tangent", TEX_RESOLVE_TANGENT},
                                                 {"scene_normal", TEX_RESOLVE_NORMAL},
-                                                {"scene_depth", TEX_RESOLVE_DEPTH}};
+                                                {"scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"host_color", TEX_RESOLVE_COLOR},
+                                                {"host_scene_depth", TEX_RESOLVE_DEPTH},
+                                                {"resolved_color", TEX_RESOLVE_COLOR},
+                                                {"resolved_data", TEX_RESOLVE_DATA}};
     const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
                                       GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER};
     std::set<std::string> seen;
@@ -300,7 +309,7 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
             EXPECT_EQ(size, groups.at(program.name())) << program.name();
             continue;
         }
-        if (program.name().ends_with("canopy.frag") || program.name() == "shells/march_choose.frag") {
+        if (program.name().find("canopy.") != std::string::npos || program.name() == "shells/march_choose.frag") {
             continue; // what they draw is for the march, not a picture
         }
         EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();

@@ -41,7 +41,7 @@ FrameSettings small_frame() {
 
 class Render : public GlTest {
 protected:
-    static render::View view_from(const Renderer& renderer, glm::dvec3 position, double pitch_deg) {
+    static render::Moment view_from(const Renderer& renderer, glm::dvec3 position, double pitch_deg) {
         scene::Pose pose;
         pose.position = position;
         pose.pitch_deg = pitch_deg;
@@ -57,7 +57,7 @@ TEST_F(Render, OcclusionChangesNoPixel) {
     settings.blades_distance_m = 40;
     std::uint64_t taken = 0;
     for (const double yaw : {0.0, 90.0, 180.0, 270.0}) {
-        render::View view = view_from(renderer, {20, 0.6, 30}, 3);
+        render::Moment view = view_from(renderer, {20, 0.6, 30}, 3);
         view.pose.yaw_deg = view.lod_pose.yaw_deg = yaw;
         settings.cull.occlusion = false;
         renderer.draw(view, settings);
@@ -415,6 +415,11 @@ TEST_F(Render, ResolveAndToneMapOfAKnownColour) {
     targets.require(16, 8, 4, false);
     render::ScreenPasses passes(false);
     const glm::vec4 colours[] = {{0.5f, 0.125f, 2.0f, 1.0f}, {0.25f, 0.5f, 0.0f, 0.0f}};
+    shared::FrameConstants constants{};
+    constants.near_m = shared::kNear_m;
+    gl::Buffer frame(sizeof(constants));
+    frame.upload(&constants, sizeof(constants));
+    frame.bind_uniform(BIND_FRAME);
     const float near = 0.25f; // reversed depth: kNear_m / 0.25 metres ahead
     for (int picture = 0; picture < 2; ++picture) {
         targets.bind_scene();

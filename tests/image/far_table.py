@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the figures of the far field against every blade as geometry, for any arguments of `sward`:
 
-    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--grass meadow,lawn] [--away] [--period] [--ring] [-- --far planes]
+    python tests/image/far_table.py [--views nadir20,at30_15] [--slope 0,25] [--wind 0,12] [--grass meadow,lawn] [--away] [--period] [--ring] [--shaders DIR] [-- --far planes]
 
 SWARD_BIN_DIR names the folder of the programs (default build/release/bin). References are kept in `image/far-references` beside it, under the
 hash of scene, view and blades; --fresh makes them again (after a change of how blades are drawn or lit), --pictures DIR writes truth and
@@ -48,6 +48,7 @@ def main():
     parser.add_argument("--ring", action="store_true", help="rings on the level field too")
     parser.add_argument("--fresh", action="store_true", help="makes the references again")
     parser.add_argument("--pictures", type=Path, help="folder for truth and found side by side")
+    parser.add_argument("--shaders", help="a folder of shaders to try, in the place of those of the source")
     parser.add_argument("arguments", nargs="*", help="of sward, after --")
     options = parser.parse_args()
     if options.fresh:
@@ -59,7 +60,7 @@ def main():
             land = far_views.Land(float(slope), float(wind), options.away, grass)
             for name in options.views.split(","):
                 view = far_views.VIEWS[name]
-                truth, found = far_views.reference(land, view, CACHE), far_views.far(land, view, options.arguments)
+                truth, found = far_views.reference(land, view, CACHE), far_views.far(land, view, options.arguments, options.shaders)
                 result = far_views.figures(truth, found)
                 over += bool(far_views.failures(result))
                 print(far_views.line(land, name, result), flush=True)

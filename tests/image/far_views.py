@@ -41,10 +41,9 @@ class View:
 
 
 # From the end of the hand-over on; grazing ones with fewer samples, for they see more blades than all the others.
-VIEWS = {"nadir20": View(89, 20), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40),
+VIEWS = {"nadir20": View(89, 20), "at75_20": View(75, 20), "nadir60": View(89, 60, fine=4), "at60_12": View(60, 12), "at60_30": View(60, 30), "at30_15": View(30, 15), "at30_40": View(30, 40), "at30_100": View(30, 100, fine=4),
          "at10_20": View(10, 20, 7, fine=4), "at10_42": View(10, 42, 4.4, fine=4), "at4_25": View(4, 25, 4, fine=4),
-         "nadir60": View(89, 60, fine=4), "at30_60": View(30, 60, fine=4), "at10_60": View(10, 60, fine=4), "at30_120": View(30, 120, fine=4),
-         "at10_120": View(10, 120, 4.4, fine=4)}
+         "at30_60": View(30, 60, fine=4), "at10_60": View(10, 60, fine=4), "at30_120": View(30, 120, fine=4), "at10_120": View(10, 120, 4.4, fine=4)}
 PLAN = View(89, 24, 30, fine=4)  # wide enough for the spectrum at the patch's period
 PLAN_METRE_PX = 8
 

@@ -456,7 +456,7 @@ TEST_F(Mask, RefusesBrokenAndHugePictures) {
     const std::string whole = png(3, 1, 8, 0, std::string("\0\0\x33\xff", 4));
     expect_holds(error("text"),
                  "mask.png: format: found none of them in its first bytes, expected PNG, TIFF");
-    expect_holds(error(""), "expected PNG, TIFF, EXR or JPEG");
+    expect_holds(error(""), "expected PNG, TIFF, EXR, JPEG or an ASCII grid");
     expect_holds(error(png(0, 3, 8, 0, "")), "mask.png: cannot decode");
     expect_holds(error(png(1000001, 1, 8, 0, "")), "mask.png: ");
     expect_holds(error(png(30000, 30000, 8, 0, std::string(1000, '\0')), ExitCode::kOverLimit),

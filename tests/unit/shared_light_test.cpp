@@ -9,6 +9,7 @@
 #include "shared/shading.h"
 #include "shared/tone.h"
 #include "shells/far_appearance.h"
+#include "shells/far_shares.h"
 
 namespace sward {
 namespace {
@@ -205,6 +206,19 @@ TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
         EXPECT_GT(coverage(row - 1), coverage(row) - 1e-6f) << row;
         EXPECT_LT(coverage(row - 1) - coverage(row), 0.1f) << row;
     }
+}
+
+TEST(FarTable, PublishedSharesAreWholeShellsAndSlicesNearGrazing) {
+    const shared::FarShares shares = shells::published_shares();
+    const auto row = [](float degrees) { return static_cast<int>(degrees / 90 * shared::kShareSteps); };
+    EXPECT_EQ(shares.shells[row(90)], glm::vec4(1));
+    EXPECT_EQ(shares.shells[row(0)], glm::vec4(1));
+    EXPECT_EQ(shares.slices[row(0)].x, 1);
+    EXPECT_NEAR(shares.slices[row(15)].x, 1 - std::sin(shared::kPi / 12), 1e-6f);
+    EXPECT_EQ(shares.slices[row(30)].x, 0);
+    const grass::GrassSet set = tests::synthetic_set();
+    const shared::FarShares fitted = shells::fitted_shares(set);
+    EXPECT_EQ(fitted.shells[row(45)], shells::shell_share_at(set, shared::kPi / 4));
 }
 
 TEST(FarTable, ShellSharesInterpolateByLevel) {

@@ -13,6 +13,7 @@
 #include "shared/bindings.h"
 #include "shared/hash.h"
 #include "shells/far_instances.h"
+#include "shells/far_shares.h"
 
 namespace sward {
 namespace {
@@ -214,6 +215,7 @@ protected:
         : set_(tests::synthetic_set()), bands_(lod::bands({}, {300, 0.006, 0.03, 3}, {})) {
         query_.eye = query_.lod_eye = {1.3f, 1.7f, -2.2f};
         query_.patch_offset = {0.75f, 1.25f};
+        query_.shares = shells::fitted_shares(set_);
     }
     shells::FarList select(const std::vector<terrain::VisibleBlock>& blocks) const {
         return select_far(set_, blocks, bands_, query_);

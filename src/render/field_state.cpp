@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "render/field_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "blades/blade_twin.h"
+#include "render/pass_names.h"
+#include "shared/bindings.h"
+
+namespace sward::render {
+
+namespace {
+
+double mean_width(const grass::GrassSet& set) {
+    if (set.levels.empty()) { // a scene on a mesh, which says so itself
+        return 0;
+    }
+    if (set.blades.empty()) { // a texel is as wide as a blade
+        return set.side_m / static_cast<double>(set.levels.front().layers.width);
+    }
+    double sum = 0;
+    for (const shared::BladeRecord& blade : set.blades) {
+        sum += 2.0 * blade.v1.w;
+    }
+    return sum / static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
+}
+
+/// A scene on a mesh has level ground at its datum, which is not drawn.
+World with_ground(World world) {
+    if (!world.surface.triangles.empty()) {
+        world.elevation = {2, 2, {1000, 1000}, {0, 0, 0, 0}, {}};
+        world.mask = {};
+        world.scene.terrain.detail_m = 0;
+    }
+    return world;
+}
+
+/// The GPU holds the images now; tens of megabytes are freed here.
+void free_texels(grass::GrassSet& set) {
+    set.march.columns = {};
+    set.march.slabs = {};
+    for (grass::FarLevel& level : set.levels) {
+        level.layers.mips.clear();
+        level.layers.mips.shrink_to_fit();
+        level.slices.mips.clear();
+        level.slices.mips.shrink_to_fit();
+        level.layers_shape = level.slices_shape = {};
+    }
+}
+
+} // namespace
+
+FieldState::FieldState(World inputs)
+    : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)),
+      surface(world.elevation, world.scene.terrain.detail_m), ground(std::make_shared<terrain::GroundSource>(surface, world.mask)),
+      wind(world.scene.wind, response,
+           std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })),
+      march_textures(world.grass.march), far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass),
+      blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))),
+      colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), objects(world),
+      mean_blade_width_m(mean_width(world.grass)), frame_buffer_(sizeof(shared::FrameConstants)), march_light_(world.grass, !world.surface.triangles.empty()) {
+    if (!world.surface.triangles.empty()) {
+        mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
+        mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
+        world.surface = {};
+    }
+    free_texels(world.grass);
+}
+
+DrawPasses& FieldState::passes(bool aov) {
+    auto& slot = aov ? aov_passes_ : plain_passes_;
+    if (!slot) {
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh());
+    }
+    return *slot;
+}
+
+blades::LivingBlades* FieldState::wake(const SimulationSettings& settings, int eyes) {
+    lives_ = settings.physics && (mesh_ground || !world.grass.blades.empty());
+    if (!lives_) {
+        return nullptr;
+    }
+    rooms_ = std::max(rooms_, eyes);
+    const blades::LivingBlades::Settings wanted{{settings.simulated_radius_m, settings.most_simulated_bytes, rooms_}};
+    const auto* present = living();
+    const bool fits = present && present->settings().pages.radius_m == wanted.pages.radius_m &&
+                      present->settings().pages.most_bytes == wanted.pages.most_bytes && present->settings().pages.eyes == wanted.pages.eyes;
+    if (mesh_ground) {
+        surface_simulation = fits ? std::move(surface_simulation) : mesh_ground->grass().simulation(wanted);
+        return surface_simulation.get();
+    }
+    simulation = fits ? std::move(simulation) : std::make_unique<blades::Simulation>(world.grass, response, wanted);
+    return simulation.get();
+}
+
+void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const SimulationSettings& settings) {
+    if (eyes.empty()) {
+        throw base::Error(base::ExitCode::kBadInput, "simulate: eyes: found none, expected one or more");
+    }
+    timers.begin_frame(settings.wait_in_passes);
+    light_followed_ = false;
+    const glm::dvec3 eye = eyes.front();
+    blades::LivingBlades* const alive = wake(settings, static_cast<int>(eyes.size()));
+    if (!alive) {
+        const gl::PassScope pass(timers, pass_names::kWind);
+        wind.advance(time, {eye.x, eye.z}, settings.most_wind_steps);
+        wind.bind();
+    } else {
+        if (!clipmap_) {
+            clipmap_ = std::make_unique<terrain::Clipmap>(ground);
+        }
+        if (!mesh_ground) { // blades meet colliders on the ground that is drawn
+            clipmap_->update({eye.x, eye.z});
+            clipmap_->bind();
+        }
+        Lens lens;
+        lens.eye = eye;
+        const Shot shot = make_shot(*clipmap_, lens, {}, glm::dvec2(0));
+        frame_buffer_.upload(&shot.constants, sizeof(shot.constants));
+        frame_buffer_.bind_uniform(BIND_FRAME);
+        alive->advance(time, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps, &timers, eyes.subspan(1)});
+    }
+    time_s = time;
+    eyes_.assign(eyes.begin(), eyes.end());
+}
+
+double FieldState::away_from_eyes(glm::dvec3 place) const {
+    double least = 1e30;
+    for (const glm::dvec3& eye : eyes_) {
+        least = std::min(least, glm::distance(eye, place));
+    }
+    return least;
+}
+
+void FieldState::follow_light(const shared::Light& light, const shared::WindField& field) {
+    if (!light_followed_) {
+        march_light_.follow(light, field);
+        light_followed_ = true;
+    }
+    march_light_.bind();
+}
+
+void FieldState::set_density(double density) {
+    if (!(density >= 0 && density <= 1)) {
+        throw base::Error(base::ExitCode::kBadInput, fmt::format("density: found {}, expected 0 to 1", density));
+    }
+    if (mesh_ground) {
+        throw base::Error(base::ExitCode::kUsage, "density: found a scene on a mesh, whose blades are placed for good, expected one on elevation");
+    }
+    world.scene.grass.density = density;
+}
+
+void FieldState::check_object(std::size_t object, const glm::dmat4& world_from_object) const {
+    if (object >= objects.count()) {
+        throw base::Error(base::ExitCode::kBadInput, fmt::format("object: found {}, expected one of the scene's {}, counted from 0", object, objects.count()));
+    }
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(world_from_object[column][row])) {
+                throw base::Error(base::ExitCode::kBadInput, fmt::format("object {}: found a matrix with infinity or no number, expected finite ones", object));
+            }
+        }
+    }
+}
+
+void FieldState::set_object(std::size_t object, const glm::dmat4& world_from_object, double when_s) {
+    objects.place(object, world_from_object);
+    colliders.set_body(object, world_from_object, when_s);
+}
+
+void FieldState::add_stats(FrameStats& stats) const {
+    for (const auto& row : timers.rows()) {
+        stats.passes.push_back({row.name, row.gpu_ms, row.cpu_ms});
+    }
+    if (const blades::LivingBlades* alive = living()) {
+        stats.blades_simulated = alive->blades();
+        stats.patches_stepped = alive->pass().stepped_patches();
+        stats.physics_steps = static_cast<std::uint64_t>(alive->steps());
+        stats.physics_bytes = mesh_ground ? surface_simulation->bytes() : alive->pass().bytes();
+        stats.sphere_pairs = alive->sphere_pairs();
+    }
+    if (mesh_ground) {
+        stats.surface_bytes = mesh_ground->grass().bytes();
+    }
+}
+
+void DrawPasses::reload(std::vector<std::string>& failures) {
+    const auto attempt = [&](auto& pass) {
+        try {
+            pass.reload();
+        } catch (const base::Error& error) {
+            failures.emplace_back(error.what());
+        }
+    };
+    attempt(terrain);
+    attempt(blades);
+    attempt(shells);
+    attempt(slices);
+    attempt(march);
+    attempt(screen);
+    attempt(meshes);
+    if (surface_) {
+        attempt(*surface_);
+    }
+}
+
+blades::DrawPass& DrawPasses::surface(bool aov) {
+    if (!surface_) {
+        surface_ = std::make_unique<blades::DrawPass>(aov, true);
+    }
+    return *surface_;
+}
+
+void FieldState::reload(std::vector<std::string>& failures) {
+    for (auto* variant : {plain_passes_.get(), aov_passes_.get()}) {
+        if (variant) {
+            variant->reload(failures);
+        }
+    }
+    ++reloads;
+    for (auto part : {+[](FieldState& f) { f.ground->height_program.reload(); f.ground->surface_program.reload(); }, +[](FieldState& f) { f.cull.reload(); },
+                      +[](FieldState& f) { if (f.sample_cull) { f.sample_cull->reload(); } },
+                      +[](FieldState& f) { if (f.simulation) { f.simulation->pass().reload(); } },
+                      +[](FieldState& f) { if (f.surface_simulation) { f.surface_simulation->pass().reload(); } },
+                      +[](FieldState& f) { if (f.mesh_ground) { f.mesh_ground->grass().reload(); } },
+                      +[](FieldState& f) { f.wind.reload(); f.sources().reload(); }}) {
+        try {
+            part(*this);
+        } catch (const base::Error& error) {
+            failures.emplace_back(error.what());
+        }
+    }
+    if (clipmap_) {
+        clipmap_->refill();
+    }
+}
+
+} // namespace sward::render
