@@ -34,7 +34,7 @@ const float kOtherDensity = 0.4;  // of the correction's second factors
 struct Seen {
     GrassSums grass;
     vec4 through;    // share of each sample's light that comes through
-    float half_way;  // distance at which half of the light is gone (m)
+    float half_way;  // distance at which half of the first sample's light is gone (m)
 };
 
 float mean_of(vec4 samples_of_a_pixel) {
@@ -133,9 +133,9 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #endif
         float shown = mean_of(lost);
         march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, shown), taken.rest.y / frame.patch_grid.w, shown));
-        float before = mean_of(seen.through);
+        bool more = seen.through.x > 0.5;
         seen.through -= lost;
-        seen.half_way = before > 0.5 && mean_of(seen.through) <= 0.5 ? middle : seen.half_way;
+        seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;
 #ifdef COUNT
         ++steps_taken;
         texels_read += shows_fibres(taken, shown) ? 2 : 1;
@@ -217,7 +217,7 @@ Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
     Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
     ray.members = members_of(view, entries, ray.entry.ground.xy);
     ray.view = view_through(pixel, ray.members, ndc);
-    ray.entry.distance = dot(ray.members, min(entries, vec4(kFarthest))) / dot(ray.members, vec4(1.0));
+    ray.entry.distance = dot(ray.members, vec4(1.0)) / dot(ray.members, 1.0 / entries); // of a plane that is the middle's
     return ray;
 }
 
