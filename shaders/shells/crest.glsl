@@ -40,6 +40,12 @@ vec4 members_of(View view, vec4 entries, vec2 slope) {
     return vec4(lessThan(entries, vec4(kNever))) * vec4(lessThanEqual(entries, vec4(reach)));
 }
 
+// Does the middle of the pixel see past the canopy that its samples enter, between the triangles of two blocks?
+bool misses(Entry entry, vec4 entries) {
+    vec4 own = mix(vec4(0.0), entries, lessThan(entries, vec4(kNever)));
+    return entry.distance > max(max(own.x, own.y), max(own.z, own.w)) * (1.0 + kSameShare);
+}
+
 // The ray through the middle of these samples.
 View view_through(ivec2 pixel, vec4 members, vec2 ndc) {
     vec2 middle = vec2(dot(members, sample_x), dot(members, sample_y)) / max(dot(members, vec4(1.0)), 1.0);

@@ -192,12 +192,15 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     if (over_it) {
         float last = min(scene, kHorizon);
         float from = next.distance + 0.1;
-        next.distance = next_entry(view, from, last, next.height);
-        if (next.distance >= kNever && last < kHorizon) { // it ends on ground that is drawn a little beside where it is looked up
-            vec2 slope = ground_under(frame.eye.xz + view.way.xz * last).xy;
-            float fall = dot(slope, view.way.xz) - view.way.y;
-            float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
-            next.distance = over < next.height + kBeside * last ? max(last - next.height / max(fall, 0.02), from) : kNever;
+        bool ends_soon = last < from * (1.0 + kSameShare);
+        next.distance = ends_soon ? kNever : next_entry(view, from, last, next.height);
+        float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
+        if (next.distance >= kNever && last < kHorizon && over < next.height + kBeside * last) {
+            // It ends on ground that is drawn a little beside where it is looked up: through the grass there, falling by a half.
+            next.distance = max(last - 2.0 * next.height, from);
+            next.ground = ground_under(frame.eye.xz + view.way.xz * last);
+            next.ground.xy = view.way.xz * ((view.way.y + 0.5) / max(dot(view.way.xz, view.way.xz), 1e-4));
+            return next;
         }
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
@@ -275,7 +278,7 @@ void main() {
 #ifndef SURFACE
     vec4 entries = eye_place.x > 0.5 ? vec4(entry.distance) : sample_entries(view, pixel);
     Ray ray = Ray(view, entry, members);
-    if (entry.distance >= kNever || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
+    if (misses(entry, entries) || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
         ray = nearest_ray(pixel, view, entries);
     }
 #endif
