@@ -13,6 +13,7 @@
 #include <CLI/Formatter.hpp>
 #include <fmt/format.h>
 
+#include "base/command_line.h"
 #include "base/error.h"
 #include "texgen/commands.h"
 #include "texgen/usage_error.h"
@@ -352,7 +353,7 @@ Options parse_options(int argc, char** argv) {
     } catch (const CLI::ParseError& problem) {
         throw usage_error(app, problem);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true); std::ranges::any_of(words, is_option))
+        if (const auto words = app.remaining(true); std::ranges::any_of(words, base::is_option))
             throw usage_error(app, CLI::ExtrasError(words));
         throw;
     }

@@ -7,22 +7,9 @@
 #include <CLI/App.hpp>
 #include <fmt/format.h>
 
+#include "base/command_line.h"
+
 namespace sward::texgen {
-namespace {
-
-/// "--sise" -> ", perhaps --size"; nothing where no option of `app` is near.
-std::string perhaps(const CLI::App& app, std::string_view word) {
-    std::vector<std::string> known;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            known.push_back("--" + name);
-    const std::string nearest = word.starts_with("--") ? base::nearest_name(word.substr(0, word.find('=')), known) : "";
-    return nearest.empty() ? "" : ", perhaps " + nearest;
-}
-
-} // namespace
-
-bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
 
 base::Error usage(std::string_view option, std::string_view found, std::string_view expected) {
     return base::Error(base::ExitCode::kUsage,
@@ -35,10 +22,10 @@ base::Error usage_error(const CLI::App& app, const CLI::ParseError& problem) {
     const CLI::App& at = commands.empty() ? app : *commands.front();
     const std::string command = commands.empty() ? "texgen" : "texgen " + at.get_name();
     const std::vector<std::string> extras = app.remaining(true);
-    const auto option = std::ranges::find_if(extras, is_option);
+    const auto option = std::ranges::find_if(extras, base::is_option);
     if (option != extras.end())
         return base::Error(base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what `{} --help` lists{}",
-                                                               base::printable(*option), command, perhaps(at, *option)));
+                                                               base::printable(*option), command, base::perhaps_option(at, *option)));
     if (!extras.empty())
         return usage(command, extras.front(), fmt::format("what `{} --help` lists", command));
     for (const CLI::Option* each : at.get_options())

@@ -16,9 +16,6 @@ namespace sward::texgen {
 /// "<option>: found "<found>", expected <expected>", exit code 2.
 [[nodiscard]] base::Error usage(std::string_view option, std::string_view found, std::string_view expected);
 
-/// A word of the command line that begins as an option does.
-[[nodiscard]] bool is_option(const std::string& word);
-
 /// CLI11's complaint in our words. CLI11 names what it could not place from the last to the first: a wrong option's value before the option.
 [[nodiscard]] base::Error usage_error(const CLI::App& app, const CLI::ParseError& problem);
 

@@ -8,6 +8,8 @@ uniform vec4 sample_x, sample_y; // places of the samples in a pixel, 0..1
 
 const float kSamePlace = 2.5;    // ground that a pixel covers: within so many times that, its samples' entries are one
 const float kSameShare = 0.01;   // of the distance, likewise
+const float kMaybeValley = 1.03; // entries that are so much farther may lie beyond a valley
+const float kValley_px = 2.0;    // depth of one, in pixels
 
 // Distances along the ray at which the pixel's samples enter the canopy; kNever: they do not.
 vec4 sample_entries(View view, ivec2 pixel) {
@@ -23,12 +25,25 @@ float nearest_of(vec4 entries) {
     return min(min(entries.x, entries.y), min(entries.z, entries.w));
 }
 
-// Samples (1, else 0) that enter where the nearest does, on ground of this slope.
+// Samples (1, else 0) that enter where the nearest does, on ground of this slope: none beyond a valley.
 vec4 members_of(View view, vec4 entries, vec2 slope) {
     float nearest = nearest_of(entries);
     float fall = max(dot(slope, view.way.xz) - view.way.y, 1e-3);
     float reach = nearest * (1.0 + kSameShare) + kSamePlace * nearest / (frame.eye.w * fall);
+    vec4 near = mix(vec4(0.0), entries, lessThanEqual(entries, vec4(min(reach, kFarthest))));
+    float farthest = max(max(near.x, near.y), max(near.z, near.w));
+    if (farthest > nearest * kMaybeValley) {
+        vec3 between = frame.eye.xyz + view.way * (0.5 * (nearest + farthest));
+        float over = between.y - ground_at(between.xz) - frame.patch_grid.w;
+        reach = over > kValley_px * nearest / frame.eye.w ? nearest * (1.0 + kSameShare) : reach;
+    }
     return vec4(lessThan(entries, vec4(kNever))) * vec4(lessThanEqual(entries, vec4(reach)));
+}
+
+// Does the middle of the pixel see past the canopy that its samples enter, between the triangles of two blocks?
+bool misses(Entry entry, vec4 entries) {
+    vec4 own = mix(vec4(0.0), entries, lessThan(entries, vec4(kNever)));
+    return entry.distance > max(max(own.x, own.y), max(own.z, own.w)) * (1.0 + kSameShare);
 }
 
 // The ray through the middle of these samples.

@@ -34,7 +34,7 @@ const float kOtherDensity = 0.4;  // of the correction's second factors
 struct Seen {
     GrassSums grass;
     vec4 through;    // share of each sample's light that comes through
-    float half_way;  // distance at which half of the light is gone (m)
+    float half_way;  // distance at which half of the first sample's light is gone (m)
 };
 
 float mean_of(vec4 samples_of_a_pixel) {
@@ -133,9 +133,9 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #endif
         float shown = mean_of(lost);
         march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, shown), taken.rest.y / frame.patch_grid.w, shown));
-        float before = mean_of(seen.through);
+        bool more = seen.through.x > 0.5;
         seen.through -= lost;
-        seen.half_way = before > 0.5 && mean_of(seen.through) <= 0.5 ? middle : seen.half_way;
+        seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;
 #ifdef COUNT
         ++steps_taken;
         texels_read += shows_fibres(taken, shown) ? 2 : 1;
@@ -192,12 +192,15 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     if (over_it) {
         float last = min(scene, kHorizon);
         float from = next.distance + 0.1;
-        next.distance = next_entry(view, from, last, next.height);
-        if (next.distance >= kNever && last < kHorizon) { // it ends on ground that is drawn a little beside where it is looked up
-            vec2 slope = ground_under(frame.eye.xz + view.way.xz * last).xy;
-            float fall = dot(slope, view.way.xz) - view.way.y;
-            float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
-            next.distance = over < next.height + kBeside * last ? max(last - next.height / max(fall, 0.02), from) : kNever;
+        bool ends_soon = last < from * (1.0 + kSameShare);
+        next.distance = ends_soon ? kNever : next_entry(view, from, last, next.height);
+        float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
+        if (next.distance >= kNever && last < kHorizon && over < next.height + kBeside * last) {
+            // It ends on ground that is drawn a little beside where it is looked up: through the grass there, falling by a half.
+            next.distance = max(last - 2.0 * next.height, from);
+            next.ground = ground_under(frame.eye.xz + view.way.xz * last);
+            next.ground.xy = view.way.xz * ((view.way.y + 0.5) / max(dot(view.way.xz, view.way.xz), 1e-4));
+            return next;
         }
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
@@ -217,7 +220,7 @@ Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
     Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
     ray.members = members_of(view, entries, ray.entry.ground.xy);
     ray.view = view_through(pixel, ray.members, ndc);
-    ray.entry.distance = dot(ray.members, min(entries, vec4(kFarthest))) / dot(ray.members, vec4(1.0));
+    ray.entry.distance = dot(ray.members, vec4(1.0)) / dot(ray.members, 1.0 / entries); // of a plane that is the middle's
     return ray;
 }
 
@@ -275,7 +278,7 @@ void main() {
 #ifndef SURFACE
     vec4 entries = eye_place.x > 0.5 ? vec4(entry.distance) : sample_entries(view, pixel);
     Ray ray = Ray(view, entry, members);
-    if (entry.distance >= kNever || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
+    if (misses(entry, entries) || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
         ray = nearest_ray(pixel, view, entries);
     }
 #endif

@@ -17,10 +17,11 @@ void main() {
 #ifndef SURFACE
     if (eye_place.x < 0.5) {
         vec4 entries = sample_entries(view, pixel);
-        if (entry.distance >= kNever && nearest_of(entries) < kNever) {
+        bool missed = misses(entry, entries);
+        if (missed && nearest_of(entries) < kNever) {
             entry = entry_at(view, nearest_of(entries));
         }
-        edge = dot(members_of(view, entries, entry.ground.xy), vec4(1.0)) < 4.0;
+        edge = missed || dot(members_of(view, entries, entry.ground.xy), vec4(1.0)) < 4.0;
     }
 #endif
     gl_FragDepth = 0.0;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/camera_file.h"
 
+#include <algorithm>
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "render/lens.h"
 
 namespace sward::app {
 namespace {
@@ -34,6 +38,11 @@ Camera read_camera(const std::filesystem::path& file) {
     Camera camera;
     camera.view_from_world = matrix_of(json, "view_from_world", file);
     camera.clip_from_view = matrix_of(json, "clip_from_view", file);
+    try { // before a set is baked for it
+        static_cast<void>(render::lens_of(camera));
+    } catch (const base::Error& error) {
+        throw base::Error(error.code(), fmt::format("{}: {}", base::printable(file.string(), 300), error.what()));
+    }
     return camera;
 }
 

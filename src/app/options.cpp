@@ -15,6 +15,7 @@
 
 #include "app/io.h"
 #include "app/parse.h"
+#include "base/command_line.h"
 
 namespace sward::app {
 namespace {
@@ -238,18 +239,6 @@ std::string one_line(std::string text) {
     return base::printable(text, 300);
 }
 
-bool is_option(const std::string& word) { return word.size() > 1 && word.front() == '-'; }
-
-/// "--sise" -> ", perhaps --size"; nothing where no option of `app` is near.
-std::string perhaps(const CLI::App& app, const std::string& word) {
-    std::vector<std::string> known;
-    for (const CLI::Option* option : app.get_options())
-        for (const std::string& name : option->get_lnames())
-            known.push_back("--" + name);
-    const std::string nearest = word.starts_with("--") ? base::nearest_name(word.substr(0, word.find('=')), known) : "";
-    return nearest.empty() ? "" : ", perhaps " + nearest;
-}
-
 /// CLI11's complaint in our form: one line that says what was found and what was expected.
 base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
     const auto commands = app.get_subcommands();
@@ -258,8 +247,8 @@ base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
         commands.empty() ? "`sward --help`" : fmt::format("`sward {} --help`", at.get_name());
     // An argument that nothing takes is worth more than what is missing because of it.
     const auto extras = app.remaining(true);
-    if (const auto option = std::find_if(extras.begin(), extras.end(), is_option); option != extras.end())
-        return {base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what {} lists{}", base::printable(*option), help, perhaps(at, *option))};
+    if (const auto option = std::find_if(extras.begin(), extras.end(), base::is_option); option != extras.end())
+        return {base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what {} lists{}", base::printable(*option), help, base::perhaps_option(at, *option))};
     if (!extras.empty())
         return option_error(at.get_name(), extras.front(), fmt::format("what {} lists", help));
     for (const CLI::Option* option : at.get_options()) {
@@ -312,7 +301,7 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         throw usage_error(error, app);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true); std::any_of(words.begin(), words.end(), is_option))
+        if (const auto words = app.remaining(true); std::any_of(words.begin(), words.end(), base::is_option))
             throw usage_error(CLI::ExtrasError(words), app);
         throw;
     }

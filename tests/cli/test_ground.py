@@ -144,7 +144,7 @@ class Ground(CliCase):
             self.assertGreater(depth.min(), 4000)
             self.assertLess(depth.max(), 7000)
             self.assertLess(numpy.sqrt((pixels ** 2).mean()), 0.7)
-            self.assertLess(numpy.abs(pixels).max(), 1.6)
+            self.assertLess(numpy.abs(pixels).max(), 2.1)  # on an edge it is the depth of the first sample, half a pixel aside
 
     def test_a_strip_stays_unbroken(self):
         """A bare strip of 8 m in a mask of 1 m, seen from 80 m up at 400 to 600 m."""

@@ -40,7 +40,7 @@ class Options(CliCase):
 
     def test_choices_and_poses(self):
         self.scene()
-        cases = [("--tiers", "most"), ("--handover", "soft"), ("--cull", "frustum,depth"), ("--cull", "occlusion,occlusion"), ("--samples", "3"), ("--camera", "raod"),
+        cases = [("--tiers", "most"), ("--handover", "soft"), ("--cull", "frustum,depth"), ("--cull", "occlusion,occlusion"), ("--samples", "3"), ("--far", "shells"), ("--camera", "raod"),
                  ("--camera", "1,2,3"), ("--camera", ""), ("--path", "rol"),
                  ("--lod-eye", "1,2"), ("--frames", "5:1"), ("--frames", "1"), ("--frames", "-1:2"),
                  ("--fixed-timestep", "0")]
@@ -49,6 +49,23 @@ class Options(CliCase):
                 self.refuse_render(2, [option, "found", text, "expected"], option, text)
         self.refuse_render(2, ["--camera", "road"], "--camera", "raod")  # the known names are told
         self.refuse_render(2, ["--camera", "nan"], "--camera", "1,2,3,4,nan")
+
+    def test_camera_matrices(self):
+        """Refused before a set is baked for it, by the file's name."""
+        self.scene()
+
+        def wants(text, *pieces):
+            (self.dir / "camera.json").write_text(text)
+            self.refuse_render(3, ["camera.json", *pieces], "--camera-matrices", "camera.json")
+
+        one = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+        flat = [0] * 14 + [-1, 0]
+        wants("{", "no JSON")
+        wants('{"clip_from_view": []}', "view_from_world", "nothing")
+        wants(f'{{"view_from_world": {one}, "clip_from_view": "x"}}', "clip_from_view", "16 numbers")
+        wants(f'{{"view_from_world": {one}, "clip_from_view": {flat}}}', "clip_from_view", "without width")
+        wants(f'{{"view_from_world": {[2] + one[1:]}, "clip_from_view": {flat}}}', "view_from_world")
+        self.refuse_render(5, ["nowhere.json"], "--camera-matrices", "nowhere.json")
 
     def test_usage(self):
         self.scene()

@@ -366,7 +366,7 @@ class Tool(ExportCase):
         data = bytearray((self.dir / "set/volume.vdb").read_bytes())
         data[len(data) // 2] ^= 1
         (self.dir / "set/volume.vdb").write_bytes(data)
-        self.refuse_export(3, ["volume.vdb", "SHA-256"], "set", "-o", "out", "--for", "blender")
+        self.refuse_export(3, ["volume.vdb", "SHA-256"], "set", "-o", "out", "--for", "blender", "-q")
 
     def test_far_only(self):
         self.assert_done(self.texgen("import", "set/volume.vdb", "-o", "far", "--size", "32", "--layers", "2", "--slices", "2", "--levels", "1", *FAST,
