@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: chunks of tiles' blades, the samples of a round of jittered pictures. Out: for each blade the pictures in which a sample may fall on
-// it, and the counts. What is left out shows in none of their samples: the test holds all that the tessellator makes of a blade. A blade
-// much thinner than a pixel falls between the samples of nearly all pictures; and one pose of it serves them all.
-#include "lib/blade_pose.glsl"
-#include "shared/sample_places.h"
+// it, and the counts. What is left out shows in none of their samples. A blade much thinner than a pixel falls between the samples of nearly
+// all pictures; and one pose of it serves them all.
+#include "lib/blade_samples.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
-layout(std430, binding = BIND_CHOICE_ITEMS) readonly buffer Items { uvec2 items[]; };
-layout(std430, binding = BIND_CHOICE_MASKS) writeonly buffer Masks { uint masks[]; };
-layout(std430, binding = BIND_CHOICE_TOTAL) buffer Totals { uint totals[CULL_COUNTS]; };
-layout(std140, binding = BIND_SAMPLES) uniform SampleBlock {
-    SampleRound round;
-};
+layout(std430, binding = BIND_CHOICE_ITEMS) readonly buffer ChoiceItems { uvec2 items[]; };
+layout(std430, binding = BIND_CHOICE_MASKS) writeonly buffer ChoiceMasks { uint masks[]; };
+layout(std430, binding = BIND_CHOICE_TOTAL) buffer ChoiceTotals { uint totals[CULL_COUNTS]; };
 uniform int first_item; // of this dispatch
 uniform int first_mask; // item whose masks lie first
 
@@ -20,123 +16,6 @@ shared uint counts[CULL_COUNTS];
 
 const uint kGone = 0xffffffffu; // the blade does not stand here
 const uint kOutside = 0xfffffffeu;
-const float kSnap_px = 1.0 / 480.0; // rasterisers put vertices on a grid of 1/256 pixel: half of it away, and what rounding adds
-
-// A piece of blade in the picture: all of it lies within `radius`, to the sides and up and down, of the line from a to b (pixels).
-struct Capsule {
-    vec2 a;
-    vec2 b;
-    vec2 radius;
-};
-
-uint all_pictures() { return (1u << round.counts.x) - 1u; }
-
-vec2 pixel_of(vec4 clip) { return (0.5 + 0.5 * clip.xy / clip.w) * vec2(frame.clip_layout.yz); }
-
-// Could a sample at `place` of some pixel lie in it? Row by row: where a row of samples crosses it, is there a column's?
-bool falls_on(Capsule piece, vec2 place) {
-    vec2 low = min(piece.a, piece.b) - piece.radius;
-    vec2 high = max(piece.a, piece.b) + piece.radius;
-    vec2 last = vec2(frame.clip_layout.yz) - 1.0;
-    float row = max(ceil(low.y - place.y), 0.0);
-    float end = min(high.y - place.y, last.y);
-    if (max(ceil(low.x - place.x), 0.0) > min(high.x - place.x, last.x)) {
-        end = -1.0;
-    }
-    vec2 way = piece.b - piece.a;
-    float per_row = abs(way.y) > 1e-6 ? 1.0 / way.y : 0.0;
-    bool found = false;
-    for (; row <= end && !found; row += 1.0) {
-        // The part of the line whose height is within a radius of the row's.
-        float t0 = 0.0;
-        float t1 = 1.0;
-        if (per_row != 0.0) {
-            float middle = (row + place.y - piece.a.y) * per_row;
-            float reach = piece.radius.y * abs(per_row);
-            t0 = clamp(middle - reach, 0.0, 1.0);
-            t1 = clamp(middle + reach, 0.0, 1.0);
-        }
-        float x0 = piece.a.x + t0 * way.x;
-        float x1 = piece.a.x + t1 * way.x;
-        float left = min(x0, x1) - piece.radius.x - place.x;
-        float right = max(x0, x1) + piece.radius.x - place.x;
-        found = max(ceil(left), 0.0) <= min(right, last.x);
-    }
-    return found;
-}
-
-uint pictures_of(Capsule piece, uint mask) {
-    for (int picture = 0; picture < round.counts.x; ++picture) {
-        bool found = (mask >> picture & 1u) != 0u;
-        for (int s = 0; s < round.counts.y; ++s) {
-            found = found || falls_on(piece, round.places[picture * round.counts.y + s].xy);
-        }
-        mask |= (found ? 1u : 0u) << picture;
-    }
-    return mask;
-}
-
-// Greatest distance of the blade's surface from its middle line between two stations, over its half width.
-float reach_of(float from, float to, vec4 outline) {
-    float stalk = outline.y * (1.0 - pow(from, outline.x));
-    float head = outline.z < 1.0 && to > outline.z ? 1.0 : 0.0;
-    return max(max(stalk, head), 0.5 * (1.0 - from)); // the fold stands out by the last
-}
-
-// How far it takes a point to the sides, up or down to move it by `way` or by its opposite (pixels).
-vec2 extent(vec4 clip, vec3 way) {
-    vec4 moved = frame.clip_from_world * vec4(way, 0.0);
-    return abs(moved.xy - clip.xy / clip.w * moved.w) / (clip.w - abs(moved.w)) * 0.5 * vec2(frame.clip_layout.yz);
-}
-
-// Of a blade's rims and of its fold at a station, whose vertices these are.
-vec2 station_extent(vec4 clip, float v, float width, BladePose pose, vec4 outline) {
-    vec3 across = blade_width_direction(pose.facing);
-    vec3 normal = normalize(cross(blade_tangent(pose.v1, pose.v2, v), across));
-    return max(extent(clip, across * (width * blade_width_at(v, outline))), extent(clip, normal * (width * 0.5 * (1.0 - v))));
-}
-
-// The pictures that a sample of may fall on the blade as blade.tesc and blade.tese draw it.
-uint pictures_with(BladeRecord blade, BladePose pose) {
-    vec4 outline = frame.looks[int(blade.shape.w)].outline;
-    vec4 root = frame.clip_from_world * vec4(pose.root, 1.0);
-    vec4 clip1 = frame.clip_from_world * vec4(pose.v1, 0.0);
-    vec4 clip2 = frame.clip_from_world * vec4(pose.v2, 0.0);
-    float width = blade.v1.w;
-    float nearest = root.w + min(min(clip1.w, clip2.w), 0.0) - 2.0 * width;
-    float pixels = frame.eye.w / max(distance(pose.root, frame.eye.xyz), 0.05);
-    float wanted = (length(pose.v1) + length(pose.v2 - pose.v1)) * pixels / frame.pose_band.z;
-    bool head = outline.z < 1.0;
-    bool unsure = wanted > 7.99 || (!head && wanted > 1.5 && abs(fract(wanted) - 0.5) > 0.49); // how many segments rounding makes
-    if (nearest < 2.0 * frame.near_m || unsure) {
-        return all_pictures(); // clipped, or long: not worth the trouble
-    }
-    // The segments' own ends, or of a head's eight every other: both those and ours lie within a quarter of the bulge times the square of our
-    // step from the curve.
-    int pieces = head ? 4 : max(int(ceil(wanted)), 2);
-    float bulge = head ? 0.5 * length(pose.v2 - 2.0 * pose.v1) : 0.0;
-    uint mask = 0u;
-    float before = 0.0;
-    vec4 clip = root;
-    vec2 place = pixel_of(root);
-    vec2 ahead = station_extent(root, 0.0, width, pose, outline);
-    for (int k = 1; k <= pieces; ++k) {
-        float v = blade_station(float(k) / float(pieces), outline);
-        vec4 next = root + 2.0 * v * (1.0 - v) * clip1 + v * v * clip2;
-        vec2 next_place = pixel_of(next);
-        float radius = width * reach_of(before, v, outline) + bulge * (v - before) * (v - before);
-        vec2 aside = max(abs(place - 0.5 * vec2(frame.clip_layout.yz)), abs(next_place - 0.5 * vec2(frame.clip_layout.yz))) / frame.eye.w;
-        float per_metre = frame.eye.w * sqrt(1.0 + dot(aside, aside)) / max(min(clip.w, next.w) - radius, frame.near_m);
-        vec2 next_ahead = station_extent(next, v, width, pose, outline);
-        vec2 reach = head ? vec2(radius * per_metre) : max(ahead, next_ahead);
-        mask = pictures_of(Capsule(place, next_place, reach + kSnap_px), mask);
-        ahead = next_ahead;
-        before = v;
-        clip = next;
-        place = next_place;
-    }
-    return mask;
-}
 
 bool outside(vec3 root, float reach) {
     vec4 clip = frame.clip_from_world * vec4(root, 1.0);

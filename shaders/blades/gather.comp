@@ -6,7 +6,7 @@
 
 layout(local_size_x = GATHER_GROUP) in;
 layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
-layout(std430, binding = BIND_GATHER_MASKS) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = BIND_GATHER_MASKS) readonly buffer GatherMasks { uint masks[]; };
 layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
 layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands { DrawCommand commands[]; };
 uniform int first_item;

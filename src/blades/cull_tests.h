@@ -11,7 +11,8 @@ struct CullTests {
     bool orientation = false;
     bool distance = true;  ///< of blades on meshes, which have no far tier; those that stay widen
     bool occlusion = true; ///< by the opaque scene
-    /// Of the reference on elevation: blades that no sample of a picture falls on. It runs this test and the frustum's, whatever the others say.
+    /// Of the reference on elevation: blades that no sample of a picture falls on. It runs this test and the frustum's, whatever the others say, and
+    /// occlusion by what has been drawn.
     bool samples = true;
 };
 

@@ -17,7 +17,7 @@ static_assert(SampleCull::kBatch % (GATHER_ITEMS * GATHER_GROUP) == 0);
 
 SampleCull::SampleCull()
     : choose_("choose blades", {"blades/choose.comp"}), gather_("gather blades", {"blades/gather.comp"}),
-      survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)), commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)),
+      sift_("sift blades", {"blades/sift.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)), commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)),
       round_(sizeof(shared::SampleRound)) {}
 
 void SampleCull::upload(const TileList& list, std::span<const glm::vec2> samples, std::span<const glm::vec2> jitters, bool keep_total) {
@@ -84,6 +84,21 @@ void SampleCull::gather(std::size_t batch, int picture, const PhysicsPass* livin
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
+void SampleCull::sift(const gl::Texture& depth, const PhysicsPass* living) {
+    if (living) {
+        living->bind_for_drawing();
+    }
+    tiles_.bind_storage(BIND_BLADE_TILES);
+    survivors_.bind_storage(BIND_SURVIVORS);
+    commands_.bind_storage(BIND_DRAW_COMMANDS);
+    total_.bind_storage(BIND_CHOICE_TOTAL);
+    round_.bind_uniform(BIND_SAMPLES);
+    depth.bind(TEX_RESOLVE_DEPTH);
+    sift_.use();
+    glDispatchCompute(static_cast<GLuint>(command_count_), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
 std::array<std::uint32_t, CULL_COUNTS> SampleCull::counts() const {
     std::array<std::uint32_t, CULL_COUNTS> counts{};
     total_.read(counts.data(), sizeof(counts));
@@ -93,6 +108,7 @@ std::array<std::uint32_t, CULL_COUNTS> SampleCull::counts() const {
 void SampleCull::reload() {
     choose_.reload();
     gather_.reload();
+    sift_.reload();
 }
 
 } // namespace sward::blades

@@ -12,6 +12,7 @@
 #include "blades/physics_pass.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
+#include "gl/texture.h"
 #include "shared/bindings.h"
 #include "shared/sample_places.h"
 
@@ -19,7 +20,7 @@ namespace sward::blades {
 
 /// Culls blades of the reference's jittered pictures by their samples: a blade that none of a picture's samples can fall on is not drawn in
 /// it. The test is made once for all pictures of a round, and keeps all that is seen: the pictures are the same, bit by bit. Far off, blades
-/// are a hundredth of a pixel wide, and of a hundred one has to be drawn. 2 bytes a blade in reach, 256 MiB at most, and 2 MiB.
+/// are a hundredth of a pixel wide, and of a hundred one has to be drawn; of those nearly all stand behind others (sift()). 2 bytes a blade in reach, 256 MiB at most, and 2 MiB.
 class SampleCull {
 public:
     /// Chunks gathered and drawn at once.
@@ -40,6 +41,9 @@ public:
     [[nodiscard]] bool piecewise() const { return items_count_ > kMostKept; }
     /// Then the batch's survivors and draw commands of the round's `picture` are ready.
     void gather(std::size_t batch, int picture, const PhysicsPass* living);
+    /// Takes from the batch what a picture so far, whose depth it is, hides. Before, beside gather() and what it wants: the picture's own constants are
+    /// bound. Batches come from near to far.
+    void sift(const gl::Texture& depth, const PhysicsPass* living);
     /// By CULL_*, of all pictures since the count began. Waits for the GPU.
     [[nodiscard]] std::array<std::uint32_t, CULL_COUNTS> counts() const;
     [[nodiscard]] const gl::Buffer& commands() const { return commands_; }
@@ -49,7 +53,7 @@ public:
 
 private:
     void choose_items(std::size_t first, std::size_t end, const PhysicsPass* living);
-    gl::Program choose_, gather_;
+    gl::Program choose_, gather_, sift_;
     gl::Buffer tiles_, items_, masks_, survivors_, commands_, total_, round_;
     std::size_t items_count_ = 0, first_mask_ = 0;
     int command_count_ = 0;

@@ -45,6 +45,7 @@ void Frame::draw_picture() {
     run(kChooseBlades, begins_round(), &Frame::choose_blades);
     while (next_gathered()) {
         run(kGatherBlades, true, &Frame::gather_batch);
+        run(kSiftBlades, s_.cull.occlusion, &Frame::sift_batch);
         run(kDrawBlades, true, &Frame::draw_gathered);
     }
     draw_surface_blades(); // kCullBlades and kDrawBlades in turn, of a mesh

@@ -54,8 +54,9 @@ private:
     void select_blades();
     void cull_batch();
     void draw_batch();
-    void choose_blades(); ///< of the reference, in the place of the three above: for a round of pictures
+    void choose_blades(); ///< of the reference, these four in the place of the three above; this one for a round of pictures
     void gather_batch();
+    void sift_batch();
     void draw_gathered();
     void draw_surface_blades(); ///< opens the passes of culling and drawing in turn, as the two above are run
     void draw_shells();

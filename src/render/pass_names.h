@@ -19,6 +19,7 @@ inline constexpr const char* kDepthPyramid = "depth pyramid";
 inline constexpr const char* kSelectBlades = "select blades";
 inline constexpr const char* kChooseBlades = "choose blades";
 inline constexpr const char* kGatherBlades = "gather blades";
+inline constexpr const char* kSiftBlades = "sift blades";
 inline constexpr const char* kCullBlades = "cull blades";
 inline constexpr const char* kDrawBlades = "draw blades";
 inline constexpr const char* kShells = "shells";

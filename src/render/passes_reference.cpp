@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reference's blades: of all that stand, those that a sample falls on.
+// The reference's blades: of all that stand, those that a sample falls on and that nothing drawn before hides from it.
 #include <algorithm>
 
 #include <epoxy/gl.h>
@@ -60,6 +60,11 @@ bool Frame::next_gathered() { return sampled() && has_blades() && batch_++ < f_.
 void Frame::gather_batch() {
     f_.blade_records.bind_storage(BIND_BLADES);
     f_.sample_cull->gather(batch_ - 1, picture_ - round_begin_, living() ? &living()->pass() : nullptr);
+}
+
+void Frame::sift_batch() {
+    f_.blade_records.bind_storage(BIND_BLADES);
+    f_.sample_cull->sift(v_.targets.scene_depth(), living() ? &living()->pass() : nullptr);
 }
 
 void Frame::draw_gathered() { passes_.blades.execute(*f_.sample_cull, living() ? &living()->pass() : nullptr); }

@@ -29,6 +29,9 @@ std::vector<Variant> variants() {
                                 {{"shells/march.vert", "shells/march_choose.frag"}, {"FINE_GROUND"}},
                                 {{"shells/march.vert", "shells/march.frag"}, {"FINE_GROUND", "CREST"}},
                                 {{"blades/cull.comp"}, {}},
+                                {{"blades/choose.comp"}, {}},
+                                {{"blades/gather.comp"}, {}},
+                                {{"blades/sift.comp"}, {}},
                                 {{"blades/depth_pyramid.comp"}, {}},
                                 {{"blades/depth_pyramid.comp"}, {"FIRST"}},
                                 {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
@@ -150,6 +153,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
                                                          {"WindGridBlock", BIND_WIND_GRID},
                                                          {"WindFieldBlock", BIND_WIND_FIELD},
                                                          {"PhysicsBlock", BIND_PHYSICS},
+                                                         {"SampleBlock", BIND_SAMPLES},
                                                          {"MarchBlock", BIND_MARCH},
                                                          {"SharesBlock", BIND_FAR_SHARES}};
     // The wind's passes run before all others and share their binding points among themselves.
@@ -201,6 +205,8 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"Tiles", BIND_BLADE_TILES},
         {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
         {"Commands", BIND_DRAW_COMMANDS}, {"Totals", BIND_CULL_TOTAL},
+        {"ChoiceItems", BIND_CHOICE_ITEMS}, {"ChoiceMasks", BIND_CHOICE_MASKS},
+        {"ChoiceTotals", BIND_CHOICE_TOTAL}, {"GatherMasks", BIND_GATHER_MASKS},
         {"Blocks", BIND_TERRAIN_BLOCKS},  {"Instances", BIND_FAR_INSTANCES},
         {"Samples", BIND_BLOCK_SAMPLES}};
     std::set<std::string> seen;
@@ -288,6 +294,9 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         {"terrain/block_samples.comp", {SAMPLE_GROUP, 1, 1}},
         {"blades/depth_pyramid.comp", {PYRAMID_GROUP, PYRAMID_GROUP, 1}},
         {"blades/cull.comp", {CULL_GROUP, 1, 1}},
+        {"blades/choose.comp", {CULL_GROUP, 1, 1}},
+        {"blades/gather.comp", {GATHER_GROUP, 1, 1}},
+        {"blades/sift.comp", {CULL_GROUP, 1, 1}},
         {"blades/wake.comp", {WAKE_GROUP, 1, 1}},
         {"blades/physics.comp", {CULL_GROUP, 1, 1}}};
     for (const Variant& variant : variants()) {

@@ -18,10 +18,10 @@ REACH = "14"
 def thin_blades(target):
     """A copy of the shaders whose test takes blades for a quarter as wide."""
     shutil.copytree(sward_cli.SOURCE / "shaders", target)
-    source = target / "blades/choose.comp"
+    source = target / "lib/blade_samples.glsl"
     text = source.read_text()
     changed = text.replace("reach + kSnap_px", "0.25 * reach", 1)
-    assert changed != text, "choose.comp has no radius to change"
+    assert changed != text, "blade_samples.glsl has no radius to change"
     source.write_text(changed)
     return target
 
