@@ -139,6 +139,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
+        depth = march_beside(depth);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
         vec3 albedo = texel.rgb / max(texel.a, 1e-4);
