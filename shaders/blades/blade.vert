@@ -16,7 +16,7 @@ out BladeVertex {
 
 void main() {
     uvec2 which = survivors[gl_VertexID];
-    BladeRecord blade = blades[which.y];
+    BladeRecord blade = tile_blade(which.x, which.y);
     BladePose pose = blade_pose(which, blade);
     Ground ground = ground_surface(pose.root.xz);
     blade_out.sway = sway_at(pose.root, pose.wind);

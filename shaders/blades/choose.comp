@@ -26,7 +26,7 @@ bool outside(vec3 root, float reach) {
 }
 
 uint choose(uvec2 item, uint index) {
-    BladeRecord blade = blades[index];
+    BladeRecord blade = tile_blade(item.x, index);
     vec3 root = blade_root(item.x, blade);
     if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) ||
         blade.root.w >= ground_surface(root.xz).density) {
@@ -54,7 +54,7 @@ void main() {
     uvec2 item = items[group];
     uint index = item.y + lane;
     uint found = 0u;
-    if (index < uint(tiles[item.x].place.z)) {
+    if (index < tiles[item.x].end) {
         found = choose(item, index);
         int pictures = round.counts.x;
         if (found == kGone || found == kOutside) {

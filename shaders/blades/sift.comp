@@ -24,7 +24,7 @@ void main() {
     bool kept = false;
     if (lane < count) {
         which = survivors[first + lane];
-        BladeRecord blade = blades[which.y];
+        BladeRecord blade = tile_blade(which.x, which.y);
         kept = pictures_with(blade, blade_pose(which, blade)) != 0u;
     }
     if (kept) {

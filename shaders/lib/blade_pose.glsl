@@ -22,7 +22,7 @@ struct BladePose {
 
 // Moves a pose to the blade's own one, where its tile has a page, by what the hand-over leaves of it; returns the share.
 float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 v2) {
-    int page = int(tiles[which.x].place.w) - 1;
+    int page = int(tiles[which.x].page) - 1;
     float share = page < 0 ? 0.0
                            : simulated_share(distance(root, frame.eye.xyz), frame.simulated.xy) *
                                  own_pose_share(blade.root.z, distance(root, frame.lod_eye.xyz), frame.pose_band.xy);

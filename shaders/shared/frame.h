@@ -54,9 +54,13 @@ struct TerrainBlock {
     vec4 place; // world x, z of its corner (m); spacing (m); level
 };
 
-// A tile of the grass patch near the eye. 16 bytes.
+// A tile of the grass patch near the eye. 32 bytes.
 struct BladeTile {
-    vec4 place; // world x, z of its corner (m); blade after its last in the set; number of its page + 1, 0: none
+    vec2 corner; // world x, z (m)
+    uint end;    // the blade after its last in the set
+    uint page;   // number of its page + 1; 0: none
+    uint lie;    // of the patch on it (shared/tile_lie.h)
+    uint unused_a, unused_b, unused_c; // to 32 bytes
 };
 
 // glMultiDrawArraysIndirect's command. 16 bytes.
@@ -88,7 +92,7 @@ struct FarInstance {
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus
-static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32 && sizeof(FarShares) == 2 * 208);
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 32 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32 && sizeof(FarShares) == 2 * 208);
 #endif
 
 SHARED_END

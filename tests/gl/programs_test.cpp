@@ -361,7 +361,7 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
 TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
     const std::map<std::string, std::size_t> strides = {
         {"blades[0].root", sizeof(shared::BladeRecord)},
-        {"tiles[0].place", sizeof(shared::BladeTile)},
+        {"tiles[0].corner", sizeof(shared::BladeTile)},
         {"items[0]", sizeof(glm::uvec2)},
         {"survivors[0]", sizeof(glm::uvec2)},
         {"commands[0].vertices", sizeof(shared::DrawCommand)},
