@@ -20,7 +20,8 @@ namespace sward::blades {
 
 /// Culls blades of the reference's jittered pictures by their samples: a blade that none of a picture's samples can fall on is not drawn in
 /// it. The test is made once for all pictures of a round, and keeps all that is seen: the pictures are the same, bit by bit. Far off, blades
-/// are a hundredth of a pixel wide, and of a hundred one has to be drawn; of those nearly all stand behind others (sift()). 2 bytes a blade in reach, 256 MiB at most, and 2 MiB.
+/// are a hundredth of a pixel wide, and of a hundred one has to be drawn; of those nearly all stand behind others (sift()). 2 bytes a blade in
+/// reach, 256 MiB at most, and 2 MiB.
 class SampleCull {
 public:
     /// Chunks gathered and drawn at once.
