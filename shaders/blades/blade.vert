@@ -5,6 +5,7 @@
 #include "lib/sway.glsl"
 #include "shared/blade_pages.h"
 #include "shared/blade_physics.h"
+#include "shared/sward.h"
 
 layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
 layout(std430, binding = BIND_BLADE_STATES) readonly buffer States { vec4 states[]; };
@@ -53,11 +54,12 @@ void main() {
     float amplitude = (1.0 - shell) * flutter_amplitude(length(wind), frame.wind.mean.w);
     vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(v1, v2, blade.shape.y, flutter.xy, wind);
+    float tint = sward_patches(root.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance(root, frame.eye.xyz) / frame.eye.w);
     blade_out.sway = sway_at(root, wind);
     blade_out.root = vec4(root, from_eye);
     blade_out.v1 = vec4(v1, blade.v1.w);
     blade_out.v2 = vec4(v2, blade.shape.x + flutter.z);
     blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, alive);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), tint, blade.shape.w, alive);
     gl_Position = vec4(0.0);
 }
