@@ -36,14 +36,18 @@ struct FrameConstants {
     GrassAppearance looks[kMaxSpecies];
     Light light;
     WindField wind;
-    vec4 ground_colours[2]; // soil, bare rock; a: unused
+    vec4 soil;       // rgb; a: share of it under moss and litter (grass::Floor)
+    vec4 rock;       // rgb; a: unused
+    vec4 moss;       // likewise
+    vec4 litter;     // likewise
     vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
     float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
-    float unused_a, unused_b, unused_c; // to 16 bytes
+    int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
+    float unused_a; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 80);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 112);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -6,6 +6,7 @@
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
 #include "shared/march_light.h"
+#include "shared/sward.h"
 #include "shared/tile_lie.h"
 #if defined(CREST) && !defined(SURFACE)
 #include "shells/crest.glsl"
@@ -107,6 +108,17 @@ float far_share(vec3 world) {
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
 }
 
+// Tint of the sward where what is seen of it stands, as the pixel's footprint on the ground shows it.
+float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half_way) {
+#ifdef SURFACE
+    return entry.ground.w;
+#else
+    float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
+    vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), entry.ground.w, max(plan.footprint, 0.5 * plan.stretch));
+#endif
+}
+
 // The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end. `radiance`: of
 // what was seen of it.
 MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen, out vec3 radiance) {
@@ -163,7 +175,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #ifdef COUNT
     ++texels_read;
 #endif
-    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(entry.ground.w) *
+    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(tint_of(view, entry, path, plan, seen.half_way)) *
                light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
     return walk;
 }

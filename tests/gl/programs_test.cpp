@@ -351,7 +351,8 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.looks[0].light"), offsetof(FrameConstants, looks[0].light));
     EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
     EXPECT_EQ(offset_of("frame.wind.layers[0]"), offsetof(FrameConstants, wind.layers));
-    EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));
+    EXPECT_EQ(offset_of("frame.soil"), offsetof(FrameConstants, soil));
+    EXPECT_EQ(offset_of("frame.anchor_x"), offsetof(FrameConstants, anchor_x));
     const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
     EXPECT_EQ(static_cast<std::size_t>(
                   resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)),
