@@ -20,11 +20,11 @@ CASES = [(LEVEL, "nadir20"), (SLOPE, "nadir20"), (LEVEL, "at60_30"), (LEVEL, "at
          (Land(25, 0, away=True), "at30_15"), (Land(0, 12), "at60_12")]
 # What the march does not reach yet, by the figures of docs/far-field.md; every other figure of every case is held to its limit, and these to
 # the bounds of WORST.
-MISSED = {(LEVEL, "nadir20"): {"contrast0"}, (SLOPE, "nadir20"): {"contrast0"}, (LEVEL, "at60_30"): {"contrast0"}, (LEVEL, "at30_15"): {"contrast0"},
+MISSED = {(LEVEL, "nadir20"): {"contrast0"}, (SLOPE, "nadir20"): {"contrast0", "contrast1"}, (LEVEL, "at60_30"): {"contrast0"}, (LEVEL, "at30_15"): {"luminance", "contrast0"},
           (LEVEL, "at10_20"): {"hue", "contrast0"}, (LEVEL, "at4_25"): {"contrast0"}, (Land(25, 0, away=True), "at30_15"): {"coverage", "luminance"},
           (Land(0, 12), "at60_12"): {"luminance", "contrast0", "contrast1", "contrast2", "contrast3"}}
 WORST = {"coverage": 0.04, "luminance": 0.05, "contrast_low": 0.55, "contrast_high": 1.3, "sparkle": 1.3, "hue": 2.2}
-PLANES_CASES = CASES[:2]
+PLANES_CASES = [*CASES[:2], (LEVEL, "at10_20")]
 MEASURES = ("coverage", "luminance", "hue", "contrast0", "contrast1", "contrast2", "contrast3", "sparkle_right", "sparkle_down")
 RING = 0.10  # change of contrast or luminance from 5 % of distance to the next: asked for
 RING_REACHED = 0.28  # what the march is held to: measured 0.25 in contrast, 0.02 in luminance
