@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "texgen/commands.h"
 #include "texgen/output_place.h"
 #include "texgen/seam_images.h"
@@ -20,6 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 using base::ExitCode;
+
+// Below these a step takes less than a second and needs no progress.
+constexpr std::size_t kSoonValues = std::size_t{1} << 24, kSoonFileBytes = std::size_t{2} << 20;
+
+std::size_t value_count(const LayerStack& stack) { return stack.images.front().values.size() * stack.images.size(); }
 
 /// What the report says.
 struct Outcome {
@@ -97,9 +103,12 @@ Outcome seam_pictures(const SeamOptions& options) {
     } else {
         base::PendingOutput pending(options.output, base::PendingOutput::Kind::kDirectory);
         base::write_file_atomic(pending.path() / kStackJson, stack_json_text(description_of(options.input, stack, done)));
-        for (std::size_t i = 0; i < done.images.size(); ++i)
+        base::Progress progress("writing pictures", value_count(done) < kSoonValues ? 0 : done.images.size());
+        for (std::size_t i = 0; i < done.images.size(); ++i) {
             base::write_file_atomic(pending.path() / done.files[i].filename(),
                                     assets::encode_layer_image(done.images[i], done.files[i]));
+            progress.advance();
+        }
         pending.commit();
     }
     return {fmt::format("{} x {} texels, {} pictures", done.images.front().width, done.images.front().height, done.images.size()),
@@ -109,8 +118,10 @@ Outcome seam_pictures(const SeamOptions& options) {
 Outcome seam_vdb(const SeamOptions& options) {
     base::require_writable(options.output);
     const std::vector<std::byte> bytes = read_vdb_file(options.input);
+    base::Progress progress("volume", bytes.size() < kSoonFileBytes ? 0 : 3); // reading, the borders, writing
     const VdbFile file(bytes, options.input);
     const VdbCells cells = file.read_cells();
+    progress.advance();
     if (cells.at.empty())
         throw base::input_error(ExitCode::kBadInput, options.input, 0, "grid " + base::printable(cells.key_grid), "no active voxel", "some");
     CellQuery query{cells.at, cells.key, options.z_up ? 2 : 1, cells.at.front(), {}, {}};
@@ -124,6 +135,7 @@ Outcome seam_vdb(const SeamOptions& options) {
     for (const int axis : {0, options.z_up ? 1 : 2})
         query.cut[axis] = cut.of(query.size[axis], options.input);
     const CellSeam seam = seam_cells(query);
+    progress.advance();
     std::vector<VdbMove> moves;
     moves.reserve(seam.moves.size());
     for (const CellMove& move : seam.moves)
@@ -132,6 +144,7 @@ Outcome seam_vdb(const SeamOptions& options) {
     const int other = options.z_up ? 1 : 2;
     const double period = seam.size.x == seam.size[other] ? seam.size.x * cells.voxel.x : 0;
     base::write_file_atomic(options.output, file.moved(moves, period));
+    progress.advance();
     return {fmt::format("{} x {} x {} voxels", seam.size.x, seam.size.y, seam.size.z), seam.before, seam.after};
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/log.h"
 #include "grass/grass_set.h"
 #include "grass/set_files.h"
 #include "texgen/commands.h"
@@ -17,17 +18,25 @@ namespace {
 
 using base::ExitCode;
 
+constexpr std::uint64_t kSoonBytes = std::uint64_t{32} << 20; ///< a set that is checked in a second needs no progress
+
 /// Throws the first thing that is wrong.
 std::vector<FileEntry> verify(const std::filesystem::path& directory) {
     std::vector<FileEntry> entries = listed_files(directory);
+    std::uint64_t total = 0;
+    for (const FileEntry& entry : entries)
+        total += entry.bytes;
+    base::Progress progress("checking", total > kSoonBytes ? 2 * total : 0); // hashes, then numbers
     for (const FileEntry& entry : entries) {
         const std::vector<std::byte> bytes = checked_file(directory, entry);
         base::log_debug(fmt::format("{}: {} bytes, SHA-256 as listed", entry.name, bytes.size()));
         if (entry.name == grass::kVolumeFile && inspect_volume(bytes, directory / entry.name).active_voxels == 0)
             throw base::input_error(ExitCode::kBadInput, directory / entry.name, 0, "density",
                                     "no voxel", "blades");
+        progress.advance(entry.bytes);
     }
     (void)grass::read_grass_set(directory);
+    progress.advance(total);
     for (const std::string& name : unlisted_files(directory, entries))
         base::log_warning(fmt::format("{}: not a file of the set",
                                       base::printable((directory / name).string(), 300)));

@@ -190,6 +190,12 @@ glm::vec3 VoxelField::normal(std::size_t i, const glm::vec3& tangent_there) cons
     return glm::normalize(glm::cross(tangent_there, across));
 }
 
+float VoxelField::others(std::size_t i) const {
+    if (!blades_ || volume_.others.empty() || !(volume_.density[i] > 0))
+        return 0;
+    return std::clamp(volume_.others[i] / volume_.density[i], 0.0f, 1.0f);
+}
+
 float VoxelField::seen_along(std::size_t i, const glm::vec3& direction) const {
     return blades_ ? density(i) * std::abs(glm::dot(normal(i, tangent(i)), direction)) : std::min(density(i), kOpaque);
 }

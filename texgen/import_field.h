@@ -61,6 +61,11 @@ public:
     /// Opacity of a cloud's voxel, or area over face of a blade's.
     [[nodiscard]] float density(std::size_t i) const { return volume_.density[i] * density_; }
 
+    /// Number of the other blades in a voxel, for what is hidden by strand: one beside each strand, since it mostly runs along.
+    [[nodiscard]] static std::uint32_t beside(std::uint32_t strand) { return strand | 1u << 16; }
+    /// Share of a blade's voxel that belongs to others than its strand.
+    [[nodiscard]] float others(std::size_t i) const;
+
     /// What part of its face a voxel covers, seen along a unit direction: of a blade its area, foreshortened; of a cloud
     /// its opacity over one voxel.
     [[nodiscard]] float seen_along(std::size_t i, const glm::vec3& direction) const;

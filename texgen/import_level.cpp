@@ -149,9 +149,12 @@ private:
         if (!(seen > 0))
             return;
         const std::uint32_t strand = field_.blades() ? field_.strand(i) : i; // a cloud's voxels hide each other by chance
-        columns_[static_cast<std::size_t>(at[axes_.v]) * static_cast<std::size_t>(field_.volume().cells[axes_.u]) +
-                 static_cast<std::size_t>(at[axes_.u])]
-            .add(strand, i, seen);
+        Column& column = columns_[static_cast<std::size_t>(at[axes_.v]) * static_cast<std::size_t>(field_.volume().cells[axes_.u]) +
+                                  static_cast<std::size_t>(at[axes_.u])];
+        const float others = seen * field_.others(i);
+        column.add(strand, i, seen - others);
+        if (others > 0)
+            column.add(VoxelField::beside(strand), i, others);
     }
 
     /// Columns stand beside each other: a texel has the mean of those in it, and one strand of theirs.

@@ -141,7 +141,10 @@ private:
         const auto i = static_cast<std::size_t>(n);
         if (field_.blades()) {
             const float seen = field_.density(i) * std::abs(glm::dot(field_.normal(i, tangent(i)), walk.way));
-            walk.sight.take(field_.strand(i), seen * length);
+            const double others = field_.others(i);
+            walk.sight.take(field_.strand(i), seen * length * (1 - others));
+            if (others > 0)
+                walk.sight.take(VoxelField::beside(field_.strand(i)), seen * length * others);
             walk.clear = walk.sight.left();
         } else {
             walk.clear *= std::pow(1 - field_.seen_along(i, walk.way), length);
@@ -171,7 +174,8 @@ Canopy volume_canopy(const VoxelField& field, const shared::GrassAppearance& loo
                 return std::nullopt;
             const auto i = static_cast<std::size_t>(n);
             const shared::vec2 id((static_cast<float>(field.rank8(i)) + 0.5f) / 256, (static_cast<float>(field.seed8(i)) + 0.5f) / 256);
-            return GrassHit{shared::blade_albedo(look, id, field.along(i), 0), bent->tangent(i),
+            const glm::vec3 albedo = field.coloured() ? field.colour(i) : glm::vec3(shared::blade_albedo(look, id, field.along(i), 0));
+            return GrassHit{albedo, bent->tangent(i),
                             field.centre(i).y / field.canopy(), field.along(i), 0};
         }};
     };

@@ -7,9 +7,12 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/log.h"
 
 namespace sward::texgen {
 namespace {
+
+constexpr std::size_t kSoonValues = std::size_t{1} << 24; // fewer are moved within a second
 
 using assets::LayerImage;
 
@@ -94,12 +97,14 @@ LayerImage overlay(const LayerImage& image, const Overlap& overlap, bool vertica
     return out;
 }
 
-LayerStack along_axis(const LayerStack& stack, bool vertical, int cut) {
+LayerStack along_axis(const LayerStack& stack, bool vertical, int cut, base::Progress& progress) {
     // Rows of the second axis are a circle by then.
     const Overlap overlap = find_overlap(cost_of(stack, vertical, cut), vertical);
     LayerStack out{stack.files, {}};
-    for (const LayerImage& image : stack.images)
+    for (const LayerImage& image : stack.images) {
         out.images.push_back(overlay(image, overlap, vertical));
+        progress.advance();
+    }
     return out;
 }
 
@@ -132,7 +137,9 @@ LayerStack seam_stack(const LayerStack& stack, const SeamCut& cut) {
     const LayerImage& first = stack.images.front();
     const std::filesystem::path& name = stack.files.front();
     const int across = cut.of(first.width, name), down = cut.of(first.height, name);
-    return along_axis(along_axis(stack, false, across), true, down);
+    const bool soon = first.values.size() * stack.images.size() < kSoonValues;
+    base::Progress progress("laying borders over", soon ? 0 : 2 * stack.images.size());
+    return along_axis(along_axis(stack, false, across, progress), true, down, progress);
 }
 
 } // namespace sward::texgen

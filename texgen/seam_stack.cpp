@@ -8,6 +8,7 @@
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/log.h"
 #include "texgen/seam_images.h"
 #include "texgen/stack_json.h"
 
@@ -22,6 +23,7 @@ using base::ExitCode;
 constexpr std::size_t kMaxPictures = 2048;
 constexpr std::uint64_t kMaxStackBytes = std::uint64_t{1} << 31; // as floats
 constexpr int kMaxPatternWidth = 9;
+constexpr std::uint64_t kSoonFileBytes = std::uint64_t{4} << 20; // read in a second
 
 /// "layer2" before "layer10": runs of digits compare as numbers.
 bool natural_before(const std::string& a, const std::string& b) {
@@ -140,7 +142,12 @@ LayerStack read_stack(const fs::path& input) {
     if (stack.files.size() > kMaxPictures)
         throw base::input_error(ExitCode::kOverLimit, input, 0, "pictures", std::to_string(stack.files.size()),
                                 fmt::format("at most {}", kMaxPictures));
-    std::uint64_t bytes = 0;
+    std::uint64_t bytes = 0, file_bytes = 0;
+    std::error_code unknown; // reading says what is wrong
+    for (const fs::path& file : stack.files)
+        if (const std::uintmax_t size = fs::file_size(file, unknown); !unknown)
+            file_bytes += size;
+    base::Progress progress("reading pictures", file_bytes > kSoonFileBytes ? stack.files.size() : 0);
     for (const fs::path& file : stack.files) {
         stack.images.push_back(assets::read_layer_image(file));
         const LayerImage& image = stack.images.back();
@@ -153,6 +160,7 @@ LayerStack read_stack(const fs::path& input) {
             throw base::input_error(ExitCode::kOverLimit, input, 0, "pictures",
                                     fmt::format("{} of {}", stack.files.size(), kind_of(first)),
                                     fmt::format("at most {} values in all", kMaxStackBytes / sizeof(float)));
+        progress.advance();
     }
     return stack;
 }

@@ -205,6 +205,7 @@ Volume seam_volume(const Volume& volume, const SeamCut& cut, const std::filesyst
     pick(volume.colour, out.colour);
     pick(volume.rank, out.rank);
     pick(volume.seed, out.seed);
+    pick(volume.others, out.others);
     return out;
 }
 

@@ -150,6 +150,8 @@ std::vector<std::byte> encode_vdb(const Volume& volume) {
         grids.push_back(scalar_grid("rank", volume, volume.rank));
     if (!volume.seed.empty())
         grids.push_back(scalar_grid("seed", volume, volume.seed));
+    if (!volume.others.empty())
+        grids.push_back(scalar_grid("others", volume, volume.others));
     return encode_grids(grids);
 }
 

@@ -94,6 +94,8 @@ public:
         read_vectors({"colour", "color", "Cd"}, out_.colour);
         read_scalars("rank", out_.rank);
         read_scalars("seed", out_.seed);
+        if (out_.format_version > 0) // a grid of that name elsewhere may be anything
+            read_scalars("others", out_.others);
         return std::move(out_);
     }
 

@@ -128,6 +128,7 @@ void gather(const grass::GrassSet& set, const std::vector<Deposit>& deposits, Vo
         out.colour.push_back(shared::blade_albedo(look_of(set, blade), {blade.root.z, blade.root.w},
                                                   most.along, 1.0f));
         out.rank.push_back(blade.root.z);
+        out.others.push_back((area - most.area) / face);
         out.seed.push_back(blade.root.w);
         out.cells.y = std::max(out.cells.y, out.at.back().y + 1);
     }

@@ -29,6 +29,7 @@ struct Volume {
     std::vector<glm::vec3> tangent; ///< unit
     std::vector<glm::vec3> colour;  ///< linear albedo
     std::vector<float> rank, seed;  ///< (n + 0.5) / 256
+    std::vector<float> others;      ///< what of `density` belongs to other blades than the companions'
 
     double period_m = 0;         ///< of the tiling, from the file's metadata; 0: it says none
     std::string preset;          ///< name of the set it was made for; empty: not ours
@@ -41,7 +42,7 @@ struct Volume {
 /// Where several blades share a voxel, the companions are those of the one with the most area (the lower rank at a tie).
 [[nodiscard]] Volume rasterise_volume(const grass::GrassSet& set);
 
-/// volume.vdb of variant 0: fog volume `density`, then `tangent`, `colour`, `rank`, `seed`; half float. Period, preset,
+/// volume.vdb of variant 0: fog volume `density`, then `tangent`, `colour`, `rank`, `seed`, `others`; half float. Period, preset,
 /// seed and format version stand in every grid's metadata. The same set gives the same bytes.
 [[nodiscard]] std::vector<std::byte> encode_volume(const grass::GrassSet& set);
 

@@ -70,8 +70,8 @@ scene::Heightfield from_picture(const scene::TerrainSpec& spec) {
     request.least_side = 2;
     request.band = spec.elevation_band;
     Channel channel = read_channel(spec.elevation, request);
-    if (channel.full_scale > 0 && channel.full_scale < 65535)
-        throw bad(spec.elevation, "bits a channel", "8",
+    if (channel.full_scale > 0 && channel.full_scale < 256)
+        throw bad(spec.elevation, "bits a channel", "8 or less",
                   "16, or floating point: 8 bits make steps");
     if (channel.full_scale > 0 && !spec.height_m)
         throw bad(spec.elevation, "terrain.height_m", "nothing",

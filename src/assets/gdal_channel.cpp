@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
@@ -25,21 +24,25 @@ base::Error bad(const std::filesystem::path& path, std::string_view what, std::s
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
-/// Largest value of the type, 0 for floating point; less than 8 bits are told beside the type.
-double full_scale_of(GDALRasterBandH band, const std::filesystem::path& path, bool classes) {
-    const GDALDataType type = GDALGetRasterDataType(band);
-    if (classes && !GDALDataTypeIsComplex(type) && type != GDT_Byte && type != GDT_UInt16)
-        return 0; // landcover often comes as signed or 32 bits
-    if (type == GDT_Float32 || type == GDT_Float64)
+/// A density's number: what stands for 1, 0 where the values are densities. A file that says a scale or an offset is taken at its word.
+double read_scale(GDALRasterBandH band, const std::filesystem::path& path, std::vector<float>& values) {
+    const double scale = GDALGetRasterScale(band, nullptr), offset = GDALGetRasterOffset(band, nullptr);
+    if ((scale != 1 || offset != 0) && !GDALGetRasterColorTable(band)) {
+        for (float& value : values)
+            value = static_cast<float>(value * scale + offset);
         return 0;
-    if (type == GDT_UInt16)
-        return 65535;
-    if (type != GDT_Byte)
+    }
+    const GDALDataType type = GDALGetRasterDataType(band);
+    const double full = full_scale_of(band);
+    if (full == 0 && type != GDT_Float32 && type != GDT_Float64)
         throw bad(path, "type of the pixels", GDALGetDataTypeName(type),
                   "8 or 16 bits unsigned, or floating point; for classes [terrain.classes]");
-    const char* bits = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE");
-    const int count = bits ? std::atoi(bits) : 8;
-    return count >= 1 && count < 8 ? double((1 << count) - 1) : 255;
+    return full;
+}
+
+void require_real(GDALRasterBandH band, const std::filesystem::path& path) {
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(band)))
+        throw bad(path, "type of the pixels", GDALGetDataTypeName(GDALGetRasterDataType(band)), "whole numbers");
 }
 
 /// Indices to the red of their colours.
@@ -69,9 +72,12 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
     if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "AAIGrid") {
         channel.values = read_ascii_grid(path, channel.width, channel.height); // GDAL reads garbage as 0
     } else {
-        channel.full_scale = full_scale_of(band, path, classes);
         gdal.read(band, path, channel.values);
         valid = gdal.read_valid(band, path, channel.values);
+        if (classes) // landcover often comes as signed or 32 bits
+            require_real(band, path);
+        else
+            channel.full_scale = read_scale(band, path, channel.values);
     }
     for (std::size_t i = 0; i < valid.size(); ++i)
         if (valid[i] == 0)

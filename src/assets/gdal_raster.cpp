@@ -83,7 +83,7 @@ void read_band(const Dataset& dataset, const fs::path& path, int number, GdalSco
     const GDALDataType type = GDALGetRasterDataType(band);
     if (GDALDataTypeIsComplex(type))
         throw bad(path, "type of the heights", GDALGetDataTypeName(type), "real numbers");
-    raster.full_scale = type == GDT_Byte ? 255 : type == GDT_UInt16 ? 65535 : 0;
+    raster.full_scale = full_scale_of(band);
     std::vector<std::uint8_t> valid;
     if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "AAIGrid") {
         raster.values = read_ascii_grid(path, raster.width, raster.height); // GDAL reads garbage as 0

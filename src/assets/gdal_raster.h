@@ -19,7 +19,7 @@ struct Raster {
     int height = 0;
     std::vector<float>
         values; ///< NaN where the file has no value; scale, offset and unit of the file are applied
-    double full_scale = 0;                ///< of an unsigned integer type (255, 65535), else 0
+    double full_scale = 0;                ///< of an unsigned integer type (255, 4095 of 12 bits, 65535), else 0
     bool has_unit = false;                ///< the file says what its values are: a unit, or a scale
     std::unique_ptr<Placement> placement; ///< null where the file has no place on Earth
     std::optional<glm::dvec2> bare_spacing_m; ///< of a file in the coordinates of a building site

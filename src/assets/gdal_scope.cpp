@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -141,6 +142,16 @@ GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& p
     if (number == 0 && bands > 1 && !(bands == 2 && is_alpha(2)))
         base::log_warning(fmt::format("{}: {} bands; the first is the {}", base::printable(path.native(), 1024), bands, what));
     return GDALGetRasterBand(dataset, std::max(number, 1));
+}
+
+double full_scale_of(GDALRasterBandH band) {
+    const GDALDataType type = GDALGetRasterDataType(band);
+    if (type != GDT_Byte && type != GDT_UInt16)
+        return 0;
+    const int whole = type == GDT_Byte ? 8 : 16;
+    const char* bits = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE");
+    const int count = bits ? std::atoi(bits) : whole;
+    return double((1 << (count >= 1 && count < whole ? count : whole)) - 1);
 }
 
 } // namespace sward::assets

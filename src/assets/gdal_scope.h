@@ -46,4 +46,8 @@ private:
 /// kBadInput where there is none, kOverLimit for a picture of more than four.
 [[nodiscard]] GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number, const char* what);
 
+/// Largest value that a band of unsigned integers of up to 16 bits can hold, by the bits that it says it uses (1 to 16); 0 for every
+/// other type.
+[[nodiscard]] double full_scale_of(GDALRasterBandH band);
+
 } // namespace sward::assets

@@ -176,6 +176,19 @@ class Ground(CliCase):
         (self.dir / "cover.asc").write_text(head + rows[:-1] + "x\n")
         self.refuse(3, ["cover.asc:70", "x"], "info", "scene.toml")
 
+    def test_masks_of_any_number_of_bits(self):
+        """1, 4, 12 and 16 bits reach 1 at their own full scale; a scale that the file says holds instead, within 0 to 1."""
+        place = {"epsg": UTM32, "affine": (10, 0, 500000, 0, -10, 5500000)}
+        geotiff(self.dir / "height.tif", 33, 33, lambda i, j: 100, "f", **place)
+        self.terrain('mask = "mask.tif"')
+        for bits, kind, full, more in ((1, "B", 1, {"bits": 1}), (4, "B", 15, {"bits": 4}), (12, "H", 4095, {"bits": 12}), (16, "H", 65535, {}),
+                                       (8, "B", 200, {"scale": 0.005}), (16, "h", 10000, {"scale": 0.0001})):
+            with self.subTest(bits=bits, full=full):
+                geotiff(self.dir / "mask.tif", 33, 33, lambda i, j: full * (j < 16), kind, **place, **more)
+                self.assertAlmostEqual(float(self.info()["mask"].split()[-1]), 15.5 / 32, delta=0.02)
+        geotiff(self.dir / "mask.tif", 33, 33, lambda i, j: 200, "B", **place, scale=0.01)
+        self.refuse(3, ["mask.tif", "0 to 1"], "info", "scene.toml")
+
     def test_vertical_units_and_voids(self):
         geotiff(self.dir / "height.tif", 33, 33, lambda i, j: -32000 if i == j == 16 else 100, "h", UTM32, (10, 0, 500000, 0, -10, 5500000))
         self.terrain()

@@ -6,6 +6,9 @@ import json
 import random
 import struct
 
+import numpy
+import OpenEXR
+
 import sward_cli
 from sward_cli import CliCase
 
@@ -141,6 +144,31 @@ class Import(ImportCase):
             look = json.loads((self.dir / name / "set.json").read_text())["species"][0]["look"]
             for found, wanted in zip(look["root"], (0.5, 0.1, 0.2)):
                 self.assertAlmostEqual(found, wanted, delta=0.01)
+
+    def test_own_volume_covers_and_colours_as_its_set(self):
+        """Within a point and 2 %, at every elevation and in the mean over them, where blades share voxels and a few are of another colour."""
+        preset = sward_cli.TINY_PRESET.replace("density_per_m2 = 300.0", "density_per_m2 = 1500.0").replace("size = 64", "size = 128")
+        preset = preset.replace("far_rays = 1024", "far_rays = 16384").replace("levels = 2", "levels = 1")
+        for own, plain in (("ks = 0.05", "ks = 0.06"), ("ps = 16.0", "ps = 18.0"), ("translucency = 0.35", "translucency = 0.45")):
+            preset = preset.replace(own, plain)  # what a volume does not carry
+        preset += "[[species]]\nname = 'green'\nshare = 5\n[[species]]\nname = 'red'\nshare = 1\n[species.colour]\nroot = [0.5, 0.02, 0.02]\n"
+        preset += "tip = [0.7, 0.03, 0.02]\n"
+        (self.dir / "two.toml").write_text(preset)
+        few = ("--layers", "2", "--slices", "2", "--levels", "1", *FAST)
+        self.assert_done(self.texgen("two.toml", "-o", "own", *few, timeout=600))
+        self.assert_done(self.texgen("import", "own/volume.vdb", "-o", "back", *few, timeout=600))
+        made, back = (json.loads(self.texgen("inspect", name, "--json").out)["far"] for name in ("own", "back"))
+        for one, other in zip(made, back):
+            self.assertAlmostEqual(one["coverage"], other["coverage"], delta=0.01, msg=one["elevation_deg"])
+        light = []
+        for name in ("own", "back"):
+            with OpenEXR.File(str(self.dir / name / "far.exr"), separate_channels=True) as file:
+                channels = file.channels()
+                light.append(numpy.array([[channels[f"{kind}.{c}"].pixels[:len(made)].mean() for c in "RGB"] for kind in ("sun", "sky")]))
+        self.assertLess(numpy.abs(light[1] / light[0] - 1).max(), 0.02, light)
+        look = json.loads((self.dir / "back/set.json").read_text())["species"][0]["look"]
+        self.assertGreater(light[1][0][0], light[1][0][1], "red blades are seen")
+        self.assertLess(look["root"][0], 0.3, "though the species' one colour is another")
 
     def test_rounding_is_told_once(self):
         values = posts()

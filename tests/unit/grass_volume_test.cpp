@@ -103,7 +103,7 @@ TEST(Volume, ReadsBackEqualGridByGrid) {
     std::vector<std::string> names;
     for (const VdbGridInfo& grid : file.grids())
         names.push_back(grid.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"density", "tangent", "colour", "rank", "seed"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"density", "tangent", "colour", "rank", "seed", "others"}));
     const Volume made = rasterise_volume(set), read = file.read_volume({});
     EXPECT_EQ(read.voxel_m, made.voxel_m);
     EXPECT_EQ(read.cells, made.cells);
@@ -114,13 +114,18 @@ TEST(Volume, ReadsBackEqualGridByGrid) {
     ASSERT_TRUE(read.at == made.at);
     EXPECT_EQ(read.rank, made.rank); // (n + 0.5) / 256 is exact in half
     EXPECT_EQ(read.seed, made.seed);
+    int shared = 0;
     for (std::size_t i = 0; i < read.at.size(); ++i) {
         expect_half(read.density[i], made.density[i]);
+        expect_half(read.others[i], made.others[i]);
+        ASSERT_LT(made.others[i], made.density[i]) << "the companions' blade has a part";
+        shared += made.others[i] > 0;
         for (int c = 0; c < 3; ++c) {
             expect_half(read.colour[i][c], made.colour[i][c]);
             ASSERT_NEAR(read.tangent[i][c], made.tangent[i][c], 2e-3f);
         }
     }
+    EXPECT_GT(shared, 0);
     // What has been rounded once stays as it is.
     Volume again = read;
     const std::vector<std::byte> second = encode_vdb(again);
