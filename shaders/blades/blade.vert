@@ -45,15 +45,21 @@ void main() {
     float canopy = frame.patch_grid.w;
     vec3 v1 = blade.v1.xyz;
     vec3 v2 = blade.v2.xyz;
-    vec2 wind = wind_at(root.xz);
+    Sway here = sway_at(root.xz, 0.0);
+    vec2 wind = here.wind;
     float shell = pose_share(blade.root.z, from_eye, frame.pose_band.xy);
     pose_blade(v1, v2, vec4(blade.shape.y, canopy, frame.wind.mean.w, shell), wind);
     float alive = live(which, blade, root, v1, v2);
+    float lying = lying_height(here.pressed);
+    if (lying < 1.0) { // after contacts and wind: what lies is lower, in every tier by the same factor
+        v1.y *= lying;
+        v2.y *= lying;
+    }
     // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * flutter_amplitude(length(wind), frame.wind.mean.w);
+    float amplitude = (1.0 - shell) * (1.0 - min(length(here.pressed), 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
     vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(v1, v2, blade.shape.y, flutter.xy, wind);
-    blade_out.sway = sway_at(root, wind);
+    blade_out.sway = sway_at(root, here);
     blade_out.root = vec4(root, from_eye);
     blade_out.v1 = vec4(v1, blade.v1.w);
     blade_out.v2 = vec4(v2, blade.shape.x + flutter.z);

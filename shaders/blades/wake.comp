@@ -32,7 +32,7 @@ void main() {
         up = true;
     } else if (state.status == kPatchAsleep && !met) {
         vec3 root = physics_root(page, records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP], false);
-        up = distance(wind_of(step_wind, root.xz), state.wind) > kStillWind_ms;
+        up = distance(physics_wind(root.xz), state.wind) > kStillWind_ms;
     }
     if (up) {
         uint list = state.status == kPatchNew ? kListNew : met || needs_height() ? kListColliding : kListFree;

@@ -6,6 +6,7 @@
 #include "shared/grass_layout.h"
 #include "shared/lod.h"
 #include "shared/shading.h"
+#include "shared/track.h"
 #include "shared/types.h"
 #include "shared/wind.h"
 
@@ -36,6 +37,7 @@ struct FrameConstants {
     GrassAppearance looks[kMaxSpecies];
     Light light;
     WindField wind;
+    TrackField tracks;
     vec4 ground_colours[2]; // soil, bare rock; a: unused
     vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
@@ -43,7 +45,7 @@ struct FrameConstants {
     float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 80);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 80);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -47,6 +47,8 @@ struct Options {
     std::optional<scene::Pose> lod_eye;
     std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
+    std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
+    std::filesystem::path save_tracks; ///< what lies at the end; empty: not kept
 
     // bench
     std::string bench_suite = "all"; ///< or far, near, wind
