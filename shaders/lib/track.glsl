@@ -7,7 +7,7 @@ layout(binding = TEX_TRACK_SHOWN) uniform samplerBuffer track_shown;
 layout(binding = TEX_TRACK_TABLE) uniform isamplerBuffer track_table;
 
 bool has_tracks() {
-    return frame.tracks.page.z >= 0;
+    return frame.tracks.page.z > 0;
 }
 
 // Slot of a page; -1: it has none.

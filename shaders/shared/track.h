@@ -54,7 +54,7 @@ static_assert(sizeof(TrackRules) == 48 && sizeof(TrackPrint) == 64 && sizeof(Tra
 // Where track_at() finds its answer. 48 bytes.
 struct TrackField {
     vec4 place;  // the anchor in its page x, z (m); 1 / cell (1/m); share of `pressed` that is left
-    ivec4 page;  // page of the anchor x, z; mask of the table of pages, -1: no tracks; unused
+    ivec4 page;  // page of the anchor x, z; mask of the table of pages, 0 or less: no tracks; unused
     vec4 bounds; // of all pages, anchor-relative: least x, z, most x, z (m)
 };
 #ifdef __cplusplus

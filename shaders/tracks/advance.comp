@@ -3,7 +3,7 @@
 // lies pressed. PRESS_ONLY: the latter alone, for a time so long ago that bends have risen since. The twin is tracks::TrackTwin.
 #include "tracks/cells.glsl"
 
-layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer Prints { TrackPrint prints[]; };
+layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints { TrackPrint prints[]; };
 
 void main() {
     TrackPage page = pages[gl_WorkGroupID.z];

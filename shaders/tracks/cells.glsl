@@ -4,10 +4,10 @@
 #include "shared/track.h"
 
 layout(local_size_x = TRACK_GROUP, local_size_y = TRACK_GROUP) in;
-layout(std430, binding = BIND_TRACK_BENDS) buffer Bends { vec4 bends[]; };     // theta, omega
-layout(std430, binding = BIND_TRACK_CHANGES) buffer Changes { vec4 changes[]; }; // of them, in the last step
-layout(std430, binding = BIND_TRACK_PRESSED) buffer Pressed { vec2 pressed[]; };
-layout(std430, binding = BIND_TRACK_PAGES) readonly buffer Pages { TrackPage pages[]; };
+layout(std430, binding = BIND_TRACK_BENDS) buffer TrackBends { vec4 bends[]; };     // theta, omega
+layout(std430, binding = BIND_TRACK_CHANGES) buffer TrackChanges { vec4 changes[]; }; // of them, in the last step
+layout(std430, binding = BIND_TRACK_PRESSED) buffer TrackPressed { vec2 pressed[]; };
+layout(std430, binding = BIND_TRACK_PAGES) readonly buffer TrackPages { TrackPage pages[]; };
 uniform vec4 rules_grid, rules_waves, rules_grass;
 
 TrackRules the_rules() {

@@ -2,7 +2,7 @@
 // In: cells of the pages that have changed. Out: one level of what track_at() reads of them: cells at level 0, means of four above it.
 #include "tracks/cells.glsl"
 
-layout(std430, binding = BIND_TRACK_SHOWN) buffer Shown { uvec2 shown[]; };
+layout(std430, binding = BIND_TRACK_SHOWN) buffer TrackShown { uvec2 shown[]; };
 uniform int level;
 
 vec4 shown_at(int index) {

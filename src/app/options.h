@@ -51,7 +51,7 @@ struct Options {
     std::filesystem::path save_tracks; ///< what lies at the end; empty: not kept
 
     // bench
-    std::string bench_suite = "all"; ///< or far, near, wind
+    std::string bench_suite = "all"; ///< or far, near, tracks, wind
     glm::ivec2 bench_size{0, 0}; ///< 0: each suite's own
     bool bench_full = false;
     std::filesystem::path bench_json; ///< empty: none

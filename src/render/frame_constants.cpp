@@ -113,7 +113,6 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, time_s);
-    out.tracks.page.z = -1;
     if (tracks) {
         out.tracks = tracks->field(anchor);
     }
