@@ -21,7 +21,7 @@ SHARED_CONST float kMostOmega = 200.0f;     // 1/s
 SHARED_CONST float kMostSwayBend = 0.97f;   // of wind and track together: bend_intensity nears 1 and never comes there
 SHARED_CONST float kLyingBend = 0.93f;      // of stems that lie
 SHARED_CONST float kLyingLoss = 0.6f;       // of their height, beside the bend
-SHARED_CONST float kLyingSheen = 0.3f;      // paler along the pass, darker against it
+SHARED_CONST float kLyingSheen = 0.45f;      // paler along the pass, darker against it
 
 // What all cells share in a step. 48 bytes.
 struct TrackRules {
@@ -43,7 +43,7 @@ SHARED_CONST int kPrintWheel = 2;  // rolls along its own z; shape.x: half of it
 
 // A page that is stepped. 48 bytes.
 struct TrackPage {
-    ivec4 slot;   // its own; first print, prints; unused
+    ivec4 slot;   // its own; first print, prints; of a part of the page: its first cell x + 256 z, else unused
     ivec4 beside; // slots to the west, east, north, south; -1: none
     vec4 ground;  // its slope dy/dx, dy/dz; unused
 };

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: changes of the pages that move, the prints that touch them. Out: bends a step on, held where something touches them (C1, C4), and what
-// lies pressed. PRESS_ONLY: the latter alone, for a time so long ago that bends have risen since. The twin is tracks::TrackTwin.
+// lies pressed. PRESS_ONLY: the latter alone, for a time so long ago that bends have risen since, a workgroup's cells a page entry. The twin is tracks::TrackTwin.
 #include "tracks/cells.glsl"
 
 layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints { TrackPrint prints[]; };
 
 void main() {
     TrackPage page = pages[gl_WorkGroupID.z];
+#ifdef PRESS_ONLY
+    ivec2 cell = ivec2(page.slot.w & 255, page.slot.w >> 8) + ivec2(gl_LocalInvocationID.xy);
+#else
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
+#endif
     int own = cell_index(page.slot.x, cell);
     TrackRules rules = the_rules();
     vec2 middle = rules.grid.x * (vec2(cell) + 0.5);

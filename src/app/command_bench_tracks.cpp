@@ -61,20 +61,17 @@ void bench_tracks(BenchReport& report) {
     for (int n = 0; n < kSide * kSide; ++n) {
         slots.push_back(n);
     }
-    std::vector<double> step, press, show;
+    std::vector<double> step, show;
     for (int round = -kWarm; round < kRounds; ++round) {
         const double a = timed_ms([&] { pass.step(rules, pool.pages, pool.prints, false); });
-        const double b = timed_ms([&] { pass.step(rules, pool.pages, pool.prints, true); });
         const double c = timed_ms([&] { pass.show(slots); });
         if (round >= 0) {
             step.push_back(a);
-            press.push_back(b);
             show.push_back(c);
         }
     }
     const std::string scene = "225 pages of 128 x 128";
     report.rows.push_back({scene, "all move", "step", spread_of(step), pass.bytes()});
-    report.rows.push_back({scene, "all move", "press alone", spread_of(press), pass.bytes()});
     report.rows.push_back({scene, "all changed", "show", spread_of(show), pass.bytes()});
     const double asleep = timed_ms([&] { pass.step(rules, {}, {}, false); });
     report.rows.push_back({scene, "all asleep", "step", {asleep, asleep, asleep}, pass.bytes()});

@@ -97,7 +97,7 @@ void TrackPass::step(const shared::TrackRules& rules, std::span<const shared::Tr
         program->set("rules_grid", rules.grid);
         program->set("rules_waves", rules.waves);
         program->set("rules_grass", rules.grass);
-        dispatch(*program, pages.size(), shared::kTrackCells);
+        dispatch(*program, pages.size(), press_only ? TRACK_GROUP : shared::kTrackCells);
     }
 }
 

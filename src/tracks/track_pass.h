@@ -23,7 +23,7 @@ public:
 
     /// Room for so many slots; what they hold stays.
     void reserve(int slots);
-    /// A step of pages (C1, C2, C4); `press_only`: of what lasts alone.
+    /// A step of pages (C1, C2, C4); `press_only`: of what lasts alone, in the TRACK_GROUP x TRACK_GROUP cells from the one that an entry names.
     void step(const shared::TrackRules& rules, std::span<const shared::TrackPage> pages, std::span<const shared::TrackPrint> prints, bool press_only);
     void rebase(std::span<const int> slots, float factor);
     /// Brings what is shown of slots up to date.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/log.h"
+#include "shared/bindings.h"
 
 namespace sward::tracks {
 
@@ -65,7 +66,7 @@ void Tracks::advance(double time_s, std::span<const glm::dvec3> eyes) {
     if (done_ < 0 || target < done_) {
         restart();
     }
-    const bool leap = target - done_ > static_cast<std::int64_t>(kLeap_s / kStep_s);
+    const bool leap = target - done_ > std::max(static_cast<std::int64_t>(kLeap_s / kStep_s), settle_steps_);
     const std::int64_t full_from = leap ? target - settle_steps_ : done_;
     while (done_ < target) {
         ++done_;
@@ -98,7 +99,7 @@ void Tracks::step(std::int64_t number, bool full) {
     const std::vector<Ball> balls = inputs_.balls ? inputs_.balls(then_s, kStep_s) : std::vector<Ball>{};
     const std::vector<Print> prints = prints_.at(then_s, kStep_s, balls);
     wake(prints, number, full);
-    const Work work = work_of(prints, number, full);
+    const Work work = full ? work_of(prints, number) : touched_by(prints);
     pass_.step(rules_, work.pages, work.prints, !full);
     stepped_ += work.pages.size();
     for (const shared::TrackPage& page : work.pages) {
@@ -145,7 +146,15 @@ void Tracks::wake_page(PageKey key, std::int64_t until, std::vector<PageKey>& ke
     }
 }
 
-Tracks::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t number, bool full) const {
+namespace {
+
+bool meets(const Print& print, glm::dvec2 low, glm::dvec2 high) {
+    return print.high.x >= low.x && print.low.x <= high.x && print.high.y >= low.y && print.low.y <= high.y;
+}
+
+} // namespace
+
+Tracks::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t number) const {
     Work work;
     for (const int slot : pages_.in_order()) {
         const Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
@@ -153,19 +162,46 @@ Tracks::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t numb
         shared::TrackPage out{};
         out.slot = {slot, static_cast<int>(work.prints.size()), 0, 0};
         for (const Print& print : prints) {
-            const glm::dvec2 end = corner + pages_.side_m();
-            if (print.high.x >= corner.x && print.low.x <= end.x && print.high.y >= corner.y && print.low.y <= end.y) {
+            if (meets(print, corner, corner + pages_.side_m())) {
                 work.prints.push_back(print.from(corner));
                 ++out.slot.z;
             }
         }
-        if (out.slot.z == 0 && (!full || page.busy_until < number)) {
+        if (out.slot.z == 0 && page.busy_until < number) {
             continue;
         }
         out.beside = {pages_.slot_of(page.key - glm::ivec2(1, 0)), pages_.slot_of(page.key + glm::ivec2(1, 0)), pages_.slot_of(page.key - glm::ivec2(0, 1)),
                       pages_.slot_of(page.key + glm::ivec2(0, 1))};
         out.ground = glm::vec4(page.slope, 0, 0);
         work.pages.push_back(out);
+    }
+    return work;
+}
+
+/// The parts of pages that prints meet, a workgroup's cells each.
+Tracks::Work Tracks::touched_by(const std::vector<Print>& prints) const {
+    Work work;
+    const double part = spec_.cell_m * TRACK_GROUP;
+    for (const int slot : pages_.in_order()) {
+        const glm::dvec2 corner = pages_.corner(pages_.slots()[static_cast<std::size_t>(slot)].key);
+        const auto first = static_cast<int>(work.prints.size());
+        glm::dvec2 low(1e30), high(-1e30);
+        for (const Print& print : prints) {
+            if (meets(print, corner, corner + pages_.side_m())) {
+                work.prints.push_back(print.from(corner));
+                low = glm::min(low, print.low - corner);
+                high = glm::max(high, print.high - corner);
+            }
+        }
+        const int count = static_cast<int>(work.prints.size()) - first, last = shared::kTrackCells / TRACK_GROUP - 1;
+        const glm::ivec2 from(glm::clamp(glm::floor(low / part), glm::dvec2(0), glm::dvec2(last))), to(glm::clamp(glm::floor(high / part), glm::dvec2(0), glm::dvec2(last)));
+        for (int z = from.y; count > 0 && z <= to.y; ++z) {
+            for (int x = from.x; x <= to.x; ++x) {
+                shared::TrackPage out{};
+                out.slot = {slot, first, count, (x + 256 * z) * TRACK_GROUP};
+                work.pages.push_back(out);
+            }
+        }
     }
     return work;
 }

@@ -32,7 +32,7 @@ public:
     Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs);
 
     /// Whole steps up to `time_s` (s, from 0); pages in and out around what moves and the eyes (world metres). An earlier time begins anew. Of a
-    /// leap of more than kLeap_s only the end is stepped in full; of what was before it what lies pressed is kept.
+    /// leap of more than kLeap_s only its end is stepped in full; of what was before it what lies pressed is kept.
     void advance(double time_s, std::span<const glm::dvec3> eyes);
     /// Binds what lib/track.glsl reads. Before: advance().
     void bind() const { pass_.bind(); }
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] const shared::TrackRules& rules() const { return rules_; }
     void reload() { pass_.reload(); }
 
-    static constexpr double kLeap_s = 60;
+    static constexpr double kLeap_s = 10;
 
 private:
     struct Work {
@@ -74,7 +74,8 @@ private:
     void follow_epoch(double time_s);
     void wake(const std::vector<Print>& prints, std::int64_t number, bool full);
     void wake_page(PageKey key, std::int64_t number, std::vector<PageKey>& kept);
-    [[nodiscard]] Work work_of(const std::vector<Print>& prints, std::int64_t number, bool full) const;
+    [[nodiscard]] Work work_of(const std::vector<Print>& prints, std::int64_t number) const;
+    [[nodiscard]] Work touched_by(const std::vector<Print>& prints) const;
     int bring(PageKey key, std::span<const PageKey> kept);
     void drop(int slot);
     void bring_back();

@@ -143,8 +143,8 @@ TEST_F(Tracks, WhatIsDroppedComesBackToTheBit) {
     }
     EXPECT_GE(goes.tracks.pages().slot_of({0, 0}), 0);
     EXPECT_EQ(bits(stays.tracks, 1, 30), bits(goes.tracks, 1, 30));
-    EXPECT_GT(stays.tracks.at(20, 16.8).pressed.x, 0.2f);
-    EXPECT_LT(stays.tracks.at(20, 16.8).pressed.x, 0.5f); // 1/e in 40 s
+    EXPECT_GT(glm::length(stays.tracks.at(20, 16.8).pressed), 0.2f);
+    EXPECT_LT(glm::length(stays.tracks.at(20, 16.8).pressed), 0.5f); // 1/e in 40 s
 }
 
 TEST_F(Tracks, ALeapKeepsWhatLies) {
