@@ -36,6 +36,8 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     set.variants = patch.variants();
     set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
                                             (preset.side_m * preset.side_m));
+    const auto colour = [](const Colour& c) { return glm::vec3(c[0], c[1], c[2]); };
+    set.floor = {static_cast<float>(preset.floor_cover), colour(preset.floor_moss), colour(preset.floor_litter)};
     double shares = 0;
     for (const Species& species : preset.species)
         shares += species.share;

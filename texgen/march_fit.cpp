@@ -185,7 +185,7 @@ private:
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
             const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
             const Texel texel = reader.at(place, step.mip - shared::march_base(plan.kind));
-            const double lost = through * (1 - std::exp(-scale * step.depth * texel.density));
+            const double lost = through * (1 - std::exp(-shared::march_beside(scale * step.depth * texel.density)));
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
             const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
             out.found += lost * found_at(height, 1);

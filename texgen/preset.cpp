@@ -129,6 +129,7 @@ struct Reader {
         into.preset.*target = static_cast<std::int64_t>(number(node));
     }
     void put(const Into& into, double Preset::*target) const { into.preset.*target = number(node); }
+    void put(const Into& into, Colour Preset::*target) const { into.preset.*target = numbers<3>(); }
     void put(const Into& into, std::string Species::*target) const { into.species.*target = name(); }
     void put(const Into& into, double Species::*target) const { into.species.*target = number(node); }
     void put(const Into& into, Range Species::*target) const {

@@ -71,6 +71,10 @@ struct Preset {
 
     std::vector<Species> species{Species{}}; ///< at least one, at most shared::kMaxSpecies
 
+    double floor_cover = 0.7;                      ///< share of the soil under moss, short leaves and litter
+    Colour floor_moss{0.050, 0.078, 0.020};        ///< and short leaves
+    Colour floor_litter{0.150, 0.118, 0.058};      ///< thatch, dead leaves
+
     /// Texels a side at level 0, a power of two; a texel should be as wide as a blade.
     std::int64_t size = 512;
     std::int64_t layers = 16; ///< shells at level 0

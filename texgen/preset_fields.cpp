@@ -14,6 +14,9 @@ const Field kFields[] = {
     {"patch", "side_m", &Preset::side_m, 0.1, 64, "metres"},
     {"patch", "density_per_m2", &Preset::density_per_m2, 1, 1000000, "blades per square metre"},
     {"patch", "variants", &Preset::variants, 1, 16, ""},
+    {"floor", "cover", &Preset::floor_cover, 0, 1, "of the soil"},
+    {"floor", "moss", &Preset::floor_moss, 0, 1, "linear reflectance"},
+    {"floor", "litter", &Preset::floor_litter, 0, 1, "linear reflectance"},
     {"", "name", &Species::name, 1, 64, "letters, digits, - and _"},
     {"", "element", &Species::element, 1, 16, "letters: blade, seed_head, leaf or flower"},
     {"", "share", &Species::share, 1e-6, 1e6, "(weight among the species)"},
@@ -64,7 +67,7 @@ std::string Field::full_key() const {
 
 std::string Field::expected() const {
     static constexpr std::string_view kKinds[] = {"text of", "a whole number from", "a number from",
-                                                  "text of", "a number from",
+                                                  "[r, g, b], three numbers from", "text of", "a number from",
                                                   "[low, high], two rising numbers from",
                                                   "[r, g, b], three numbers from"};
     return fmt::format("{} {} to {}{}{}", kKinds[target.index()], low, high,

@@ -15,7 +15,7 @@ namespace sward::texgen {
 /// reader, the range checks of the command line and the messages share. A key of a species stands at the preset's
 /// top level, for all species, or in a [[species]] entry, for that one.
 struct Field {
-    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*,
+    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*, Colour Preset::*,
                                 std::string Species::*, double Species::*, Range Species::*,
                                 Colour Species::*>;
     std::string_view section; ///< empty: top level of the preset or of the species
@@ -25,7 +25,7 @@ struct Field {
     double high = 0;
     std::string_view unit; ///< for messages
 
-    [[nodiscard]] bool of_species() const { return target.index() >= 3; }
+    [[nodiscard]] bool of_species() const { return target.index() >= 4; }
     [[nodiscard]] std::string full_key() const;
     [[nodiscard]] std::string expected() const; ///< "a number from 1 to 5 metres"
 };

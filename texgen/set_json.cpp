@@ -24,6 +24,10 @@ ordered_json rgb(const shared::vec4& c) {
     return {decimal(c.x), decimal(c.y), decimal(c.z)};
 }
 
+ordered_json floor_of(const grass::Floor& floor) {
+    return {{"cover", decimal(floor.cover)}, {"moss", rgb(glm::vec4(floor.moss, 0))}, {"litter", rgb(glm::vec4(floor.litter, 0))}};
+}
+
 ordered_json look(const shared::GrassAppearance& a) {
     return {{"root", rgb(a.root)},
             {"tip", rgb(a.tip)},
@@ -87,6 +91,7 @@ std::string set_json(const grass::GrassSet& set, const std::vector<FileEntry>& f
                          {"variants", set.variants},
                          {"density_per_m2", decimal(set.density_per_m2)},
                          {"height_coding", set.height_coding},
+                         {"floor", floor_of(set.floor)},
                          {"blades", set.blades.size()}};
     for (const grass::Species& species : set.species)
         root["species"].push_back({{"name", species.name},

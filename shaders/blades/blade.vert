@@ -5,6 +5,7 @@
 #include "lib/sway.glsl"
 #include "shared/blade_pages.h"
 #include "shared/blade_physics.h"
+#include "shared/sward.h"
 
 layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
 layout(std430, binding = BIND_BLADE_STATES) readonly buffer States { vec4 states[]; };
@@ -21,7 +22,7 @@ out BladeVertex {
 
 // Moves a pose to the blade's own one, where its tile has a page, by what the hand-over leaves of it; returns the share.
 float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 v2) {
-    int page = int(tiles[which.x].place.w) - 1;
+    int page = int(tiles[which.x].page) - 1;
     float share = page < 0 ? 0.0
                            : simulated_share(distance(root, frame.eye.xyz), frame.simulated.xy) *
                                  own_pose_share(blade.root.z, distance(root, frame.lod_eye.xyz), frame.pose_band.xy);
@@ -38,7 +39,7 @@ float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 
 
 void main() {
     uvec2 which = survivors[gl_VertexID];
-    BladeRecord blade = blades[which.y];
+    BladeRecord blade = tile_blade(which.x, which.y);
     vec3 root = blade_root(which.x, blade);
     Ground ground = ground_surface(root.xz);
     float from_eye = distance(root, frame.lod_eye.xyz);
@@ -59,11 +60,12 @@ void main() {
     float amplitude = (1.0 - shell) * (1.0 - min(length(here.pressed), 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
     vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(v1, v2, blade.shape.y, flutter.xy, wind);
+    float tint = sward_patches(root.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance(root, frame.eye.xyz) / frame.eye.w);
     blade_out.sway = sway_at(root, here);
     blade_out.root = vec4(root, from_eye);
     blade_out.v1 = vec4(v1, blade.v1.w);
     blade_out.v2 = vec4(v2, blade.shape.x + flutter.z);
     blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / canopy, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), ground.tint, blade.shape.w, alive);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), tint, blade.shape.w, alive);
     gl_Position = vec4(0.0);
 }

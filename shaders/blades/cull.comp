@@ -66,10 +66,10 @@ uint verdict(uvec2 item, uint index) {
 #else
 // The test that takes a blade, or CULL_KEPT; CULL_COUNTS where there is none.
 uint verdict(uvec2 item, uint index) {
-    if (index >= uint(tiles[item.x].place.z)) {
+    if (index >= tiles[item.x].end) {
         return uint(CULL_COUNTS);
     }
-    BladeRecord blade = blades[index];
+    BladeRecord blade = tile_blade(item.x, index);
     vec3 root = blade_root(item.x, blade);
     if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) ||
         blade.root.w >= ground_surface(root.xz).density) {

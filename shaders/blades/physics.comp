@@ -131,7 +131,7 @@ void main() {
     uint lane = gl_LocalInvocationID.x;
     uint within = (patch_id % uint(patches_a_page)) * uint(CULL_GROUP) + lane;
     if (within < uint(entry.page.run.y)) {
-        PhysicsRecord blade = record_at(uint(entry.page.run.x) + within);
+        PhysicsRecord blade = physics_laid(entry.page, record_at(uint(entry.page.run.x) + within));
         vec3 root = physics_root(entry.page, blade, kMeets && (list.y > 0u || needs_height()));
         vec2 wind = physics_wind(root.xz);
         uint at = patch_id * uint(CULL_GROUP) + lane;

@@ -8,6 +8,7 @@
 #else
 #include "lib/ground.glsl"
 #include "lib/track.glsl"
+#include "shared/tile_lie.h"
 #endif
 
 layout(std140, binding = BIND_PHYSICS) uniform PhysicsBlock {
@@ -30,6 +31,15 @@ uniform int buffer_number; // of the records that are bound: BladePage::run.z
 // Where something draws to a centre, the root's height matters to blades that nothing meets too.
 bool needs_height() {
     return rules.memory.w > 0.0;
+}
+
+// A record as it lies on its page's tile.
+PhysicsRecord physics_laid(BladePage page, PhysicsRecord blade) {
+#ifdef SURFACE
+    return blade;
+#else
+    return lay_blade(uint(page.run.w), blade, page.place.z);
+#endif
 }
 
 // Root of a blade of a page, anchor-relative. The root's height matters to colliders and to a centre of gravity alone: without `high` it

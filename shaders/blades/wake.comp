@@ -31,7 +31,8 @@ void main() {
     } else if (state.status == kPatchAwake) {
         up = true;
     } else if (state.status == kPatchAsleep && !met) {
-        vec3 root = physics_root(page, records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP], false);
+        PhysicsRecord first = physics_laid(page, records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
+        vec3 root = physics_root(page, first, false);
         up = distance(physics_wind(root.xz), state.wind) > kStillWind_ms;
     }
     if (up) {

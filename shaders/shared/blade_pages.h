@@ -9,8 +9,9 @@ SHARED_BEGIN
 
 // A slot of the pool. 32 bytes. On a mesh a page is one cluster of it.
 struct BladePage {
-    vec4 place;  // x, z of the tile's corner, anchor-relative (m); of a mesh: x, y, z of its origin
-    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; number of the buffer of records
+    vec4 place;  // x, z of the tile's corner, anchor-relative (m); side of the patch (m); of a mesh: x, y, z of its origin
+    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; number of the buffer of records; lie of the
+                 // patch on the tile (shared/tile_lie.h), unused of a mesh
 };
 
 SHARED_CONST uint kPatchFree = 0u;

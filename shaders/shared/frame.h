@@ -38,14 +38,18 @@ struct FrameConstants {
     Light light;
     WindField wind;
     TrackField tracks;
-    vec4 ground_colours[2]; // soil, bare rock; a: unused
+    vec4 soil;       // rgb; a: share of it under moss and litter (grass::Floor)
+    vec4 rock;       // rgb; a: unused
+    vec4 moss;       // likewise
+    vec4 litter;     // likewise
     vec4 mask_place;  // of the density mask: u, v of the anchor; u, v a metre
     vec4 simulated;   // fade from living to grouped blades: start, end (m); blades a page's slot; unused
     float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
-    float unused_a, unused_b, unused_c; // to 16 bytes
+    int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
+    float unused_a; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 80);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112);
 #endif
 
 SHARED_CONST int kBlockCells = 8;
@@ -56,9 +60,13 @@ struct TerrainBlock {
     vec4 place; // world x, z of its corner (m); spacing (m); level
 };
 
-// A tile of the grass patch near the eye. 16 bytes.
+// A tile of the grass patch near the eye. 32 bytes.
 struct BladeTile {
-    vec4 place; // world x, z of its corner (m); blade after its last in the set; number of its page + 1, 0: none
+    vec2 corner; // world x, z (m)
+    uint end;    // the blade after its last in the set
+    uint page;   // number of its page + 1; 0: none
+    uint lie;    // of the patch on it (shared/tile_lie.h)
+    uint unused_a, unused_b, unused_c; // to 32 bytes
 };
 
 // glMultiDrawArraysIndirect's command. 16 bytes.
@@ -90,7 +98,7 @@ struct FarInstance {
     ivec4 image; // index of the image within its variant (planes counted), planes of one variant, axis (slices), level
 };
 #ifdef __cplusplus
-static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 16 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32 && sizeof(FarShares) == 2 * 208);
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 32 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 32 && sizeof(FarShares) == 2 * 208);
 #endif
 
 SHARED_END

@@ -388,6 +388,14 @@ SHARED_FN vec3 march_texel(MARCH_MEDIUM MarchPlan plan, MarchStep taken, vec3 pl
     return vec3(along, taken.rest.y / medium.size.y, float((int(place_variant.z) * 2 + plan.axis) * count + slab));
 }
 
+// Optical depth of blades whose area along a step is `area` times the way. In the thickness of a step blades stand beside rather than behind each
+// other: what n of them cover adds up. Wholly beside, depth is -log(1 - area) = area + area^2 / 2 + ..; the factor is what pictures need, whose texels
+// blur what stands beside: without it a flower's head lets a third of the light through, and contrast is 0.75 of the truth's 20 m below the eye.
+SHARED_CONST float kSideBySide = 1.2f;
+SHARED_FN float march_beside(float area) {
+    return area * (1.0f + kSideBySide * area);
+}
+
 // Finest mip of a kind's textures, in mips of the finest texel.
 SHARED_FN float march_base(int kind) {
     return kind == kMarchColumns ? float(kColumnBase) : float(kind);

@@ -36,6 +36,7 @@ using glm::exp;
 using glm::exp2;
 using glm::floor;
 using glm::fract;
+using glm::inversesqrt;
 using glm::length;
 using glm::log;
 using glm::max;

@@ -6,6 +6,8 @@
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
 #include "shared/march_light.h"
+#include "shared/sward.h"
+#include "shared/tile_lie.h"
 #if defined(CREST) && !defined(SURFACE)
 #include "shells/crest.glsl"
 #endif
@@ -66,10 +68,22 @@ float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     return gust < 1.0 ? mix(winds.r, winds.g, gust) : mix(winds.g, winds.b, gust - 1.0);
 }
 
-vec3 texel_place(MarchPlan plan, MarchStep taken) {
+// Where a step's texel is.
+struct Texel {
+    vec3 uv;  // in its image, number of that in the array
+    uint lie; // of the patch on the tile there
+};
+
+Texel texel_of(MarchPlan plan, MarchStep taken) {
     vec2 place = (taken.rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
-    int variant = tile_variant(ivec2(floor(place)) + frame.patch_tile.xy, frame.patch_tile.z);
-    return march_texel(plan, taken, vec3(place, float(variant)));
+    ivec2 tile = ivec2(floor(place)) + frame.patch_tile.xy;
+#ifdef SURFACE
+    uint lie = kLieAsGrown;
+#else
+    uint lie = tile_lie(tile);
+#endif
+    plan.axis = lie_turned(lie) ? 1 - plan.axis : plan.axis;
+    return Texel(march_texel(plan, taken, vec3(lie_source(lie, place), float(tile_variant(tile, frame.patch_tile.z)))), lie);
 }
 
 // Are a step's blades seen well enough to be told apart?
@@ -78,11 +92,12 @@ bool shows_fibres(MarchStep taken, float shown) {
 }
 
 // Mean tangent of the blades at a step, as the wind turns them: read where they are told apart, else the layer's.
-vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float shown) {
+vec3 mean_tangent(MarchPath path, MarchStep taken, Texel at, float shown) {
     vec3 mean = vec3(0.0, medium.layers[taken.layer].x, 0.0);
     if (shows_fibres(taken, shown)) {
-        vec4 texel = textureLod(fibres, uv, taken.mip - march_base(kind));
-        mean = march_fibre(taken, vec3(2.0 * texel.x - 1.0, texel.y, 2.0 * texel.z - 1.0));
+        vec4 texel = textureLod(fibres, at.uv, taken.mip - march_base(kind));
+        vec2 level = lie_along(at.lie, 2.0 * texel.xz - 1.0);
+        mean = march_fibre(taken, vec3(level.x, texel.y, level.y));
     }
     return march_turned(path, taken.rest.y, mean);
 }
@@ -91,6 +106,17 @@ vec3 mean_tangent(MarchPath path, MarchStep taken, vec3 uv, float shown) {
 float far_share(vec3 world) {
     float share = march_share(handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy));
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
+}
+
+// Tint of the sward where what is seen of it stands, as the pixel's footprint on the ground shows it.
+float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half_way) {
+#ifdef SURFACE
+    return entry.ground.w;
+#else
+    float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
+    vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), entry.ground.w, max(plan.footprint, 0.5 * plan.stretch));
+#endif
 }
 
 // The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end. `radiance`: of
@@ -120,11 +146,12 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     float last = max(max(ends.x, ends.y), max(ends.z, ends.w));
     for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last && mean_of(seen.through) > kMarchEnd; ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
-        vec3 uv = texel_place(plan, taken);
-        vec4 texel = textureLod(densities, uv, taken.mip - march_base(kind));
+        Texel at = texel_of(plan, taken);
+        vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a;
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
+        depth = march_beside(depth);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
         vec3 albedo = texel.rgb / max(texel.a, 1e-4);
@@ -132,7 +159,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         albedo *= march_tint(taken.layer, steepness);
 #endif
         float shown = mean_of(lost);
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, uv, shown), taken.rest.y / frame.patch_grid.w, shown));
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, at, shown), taken.rest.y / frame.patch_grid.w, shown));
         bool more = seen.through.x > 0.5;
         seen.through -= lost;
         seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;
@@ -148,7 +175,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #ifdef COUNT
     ++texels_read;
 #endif
-    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(entry.ground.w) *
+    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(tint_of(view, entry, path, plan, seen.half_way)) *
                light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
     return walk;
 }

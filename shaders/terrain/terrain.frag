@@ -4,12 +4,24 @@
 #include "lib/ground.glsl"
 #include "lib/output.glsl"
 #include "lib/sway.glsl"
+#include "shared/sward.h"
 
 layout(binding = TEX_FAR_APPEARANCE) uniform sampler2DArray far_appearance;
 
 in vec3 world;
 in vec2 sway;
 in float gust;
+
+// Reflectance of the ground, as a pixel `width` metres wide shows it: rock where no grass will grow, else soil, moss and litter.
+vec3 soil_colour(vec2 xz, Ground ground, float width) {
+    ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
+    float tint = sward_patches(xz, anchor, ground.tint, width);
+    float earth = smoothstep(0.0, 0.4, ground.density);
+    vec3 floor_here = floor_at(xz, anchor, vec2(frame.soil.a, tint), width);
+    vec3 bare = mix(frame.rock.rgb, frame.soil.rgb, earth) * (floor_here.x * mix(0.75, 1.25, tint));
+    vec3 cover = mix(frame.moss.rgb, frame.litter.rgb, floor_here.z) * mix(1.0, floor_here.x, 0.5);
+    return mix(bare, cover, floor_here.y * earth);
+}
 
 // The whole canopy by the sun's azimuth from the eye's and the elevation of the view.
 struct Canopy {
@@ -40,12 +52,11 @@ void main() {
     vec3 to_eye = -from_eye / distance_m;
     Ground ground = ground_surface(world.xz);
 
-    float variation = mix(0.75, 1.25, ground.tint);
-    vec3 soil_albedo = mix(frame.ground_colours[1].rgb, frame.ground_colours[0].rgb, smoothstep(0.0, 0.4, ground.density)) * variation;
     float shade = sway.y; // of the grass over it
     if (has_tracks()) {   // which are finer than the vertices
         shade = sway_at(world, sway_at(world.xz, distance_m / frame.eye.w)).y;
     }
+    vec3 soil_albedo = soil_colour(world.xz, ground, distance_m / frame.eye.w * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
     vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, shade)), soil_albedo, ground.normal, ground.density);
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
@@ -58,7 +69,7 @@ void main() {
     // The table is of flat ground.
     float slope = dot(ground.normal, frame.light.to_sun.xyz);
     float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
-    vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(ground.tint);
+    vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.eye.w));
 
     vec4 haze = haze_of(frame.light, from_eye);
     vec3 radiance = mix(soil, grass, coverage) * haze.a + haze.rgb;

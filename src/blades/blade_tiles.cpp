@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "shared/bindings.h"
-#include "shared/hash.h"
+#include "shared/tile_lie.h"
 
 namespace sward::blades {
 
@@ -69,7 +69,7 @@ TileList select_tiles(const grass::GrassSet& set, const terrain::Surface& surfac
         }
         if (count > 0) {
             const int page = query.pages ? query.pages->slot_of(candidate.tile) + 1 : 0;
-            list.tiles.push_back({{candidate.corner.x, candidate.corner.y, static_cast<float>(first + count), static_cast<float>(page)}});
+            list.tiles.push_back({candidate.corner, first + count, static_cast<shared::uint>(page), shared::tile_lie(candidate.tile), 0, 0, 0});
             list.considered += count;
         }
     }

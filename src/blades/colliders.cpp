@@ -7,11 +7,13 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "shared/tile_lie.h"
 
 namespace sward::blades {
 
 namespace {
 
+constexpr double kLaidSlack_m = 1e-4; // where a root lies is rounded
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool finite(glm::dvec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -29,6 +31,22 @@ bool meets(const Box& box, glm::dvec2 low, glm::dvec2 high) {
     return box.low.x <= high.x && box.high.x >= low.x && box.low.z <= high.y && box.high.z >= low.y;
 }
 
+/// Does a box meet the roots of a patch (least x, z, most x, z in the set) as they lie on the tile at `corner`? The shift may have parted them: they go on
+/// at the tile's other end.
+bool meets_laid(const Box& box, glm::dvec2 corner, const glm::vec4& roots, double side_m, shared::uint lie) {
+    const glm::dvec2 a(shared::lie_along(lie, glm::vec2(roots.x, roots.y))), b(shared::lie_along(lie, glm::vec2(roots.z, roots.w)));
+    const glm::dvec2 size = glm::abs(b - a);
+    const glm::dvec2 least = glm::min(a, b) + glm::dvec2(shared::lie_shift(lie)) * side_m;
+    const glm::dvec2 low = corner + least - glm::floor(least / side_m) * side_m;
+    for (int part = 0; part < 4; ++part) {
+        const glm::dvec2 from = low - glm::dvec2(part & 1, part >> 1) * side_m;
+        if (meets(box, from - kLaidSlack_m, from + size + kLaidSlack_m)) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Calls `found(patch)` for every patch of the pool that a box meets.
 template<class Found>
 void each_patch(const Pages& pages, double side_m, const Box& box, Found found) {
@@ -40,10 +58,10 @@ void each_patch(const Pages& pages, double side_m, const Box& box, Found found) 
             return;
         }
         const glm::dvec2 corner = glm::dvec2(page.tile) * side_m;
+        const shared::uint lie = shared::tile_lie(page.tile);
         const std::size_t first = order.box_begin[static_cast<std::size_t>(page.variant)], end = order.box_begin[static_cast<std::size_t>(page.variant) + 1];
         for (std::size_t n = first; n < end; ++n) {
-            const glm::vec4& roots = order.boxes[n];
-            if (meets(box, corner + glm::dvec2(roots.x, roots.y), corner + glm::dvec2(roots.z, roots.w))) {
+            if (meets_laid(box, corner, order.boxes[n], side_m, lie)) {
                 found(static_cast<std::uint32_t>(slot * order.patches_a_page + static_cast<int>(n - first)));
             }
         }

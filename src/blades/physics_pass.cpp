@@ -10,6 +10,7 @@
 
 #include "shared/bindings.h"
 #include "shared/blade_pages.h"
+#include "shared/tile_lie.h"
 
 namespace sward::blades {
 
@@ -110,8 +111,9 @@ void PhysicsPass::place(const Pages& pages, double side_m, glm::dvec3 anchor) {
         if (page.used) {
             const auto variant = static_cast<std::size_t>(page.variant);
             const glm::vec2 corner(glm::dvec2(page.tile) * side_m - glm::dvec2(anchor.x, anchor.z));
-            placed[slot] = {glm::vec4(corner, 0, 0), {static_cast<int>(variant_begin_[variant]),
-                                                     static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0, 0}};
+            placed[slot] = {glm::vec4(corner, side_m, 0), {static_cast<int>(variant_begin_[variant]),
+                                                     static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0,
+                                                     static_cast<int>(shared::tile_lie(page.tile))}};
         }
     }
     place(std::move(placed), pages.fresh());

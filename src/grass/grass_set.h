@@ -101,6 +101,13 @@ struct Species {
     shared::GrassAppearance look{};
 };
 
+/// What covers the soil under the blades: moss and short leaves, and litter.
+struct Floor {
+    float cover = 0; ///< share of the soil that it hides, 0..1
+    glm::vec3 moss{0};   ///< linear reflectance
+    glm::vec3 litter{0}; ///< likewise
+};
+
 /// A grass set in memory: what texgen writes and the renderer reads (docs/texgen.md).
 struct GrassSet {
     std::string name;
@@ -117,6 +124,7 @@ struct GrassSet {
     FarMedium march;                            ///< what the far field is drawn from
     std::vector<FarRow> far;                    ///< falling elevation
     FarLight far_light;                         ///< its light, at the same elevations
+    Floor floor;                                ///< none where a set names none
     std::vector<Species> species;               ///< 1 to shared::kMaxSpecies; a blade's shape.w and a texel's A name one
 };
 

@@ -9,7 +9,7 @@ namespace sward::grass {
 
 /// Raised whenever sets of the same preset change, in form or in content: belongs in the key of every cache of
 /// sets, and the reader refuses every other.
-inline constexpr int kSetFormatVersion = 14;
+inline constexpr int kSetFormatVersion = 15;
 inline constexpr int kMaxVariants = 16;
 inline constexpr int kMaxFarLevels = 4; // as shared::kMaxFarLevels: the renderer has room for so many
 inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;

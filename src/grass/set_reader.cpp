@@ -56,6 +56,10 @@ void read_head(const SetJson& set, GrassSet& out) {
     out.variants = set.whole(root, "variants", 1, kMaxVariants);
     out.density_per_m2 = set.real(root, "density_per_m2", 0, 1e6);
     out.height_coding = set.whole(root, "height_coding", shared::kHeightNone, shared::kHeightTop);
+    const json& floor = set.at(root, "floor");
+    out.floor.cover = set.real(floor, "cover", 0, 1);
+    out.floor.moss = glm::vec3(set.colour(floor, "moss", 0));
+    out.floor.litter = glm::vec3(set.colour(floor, "litter", 0));
     for (const json& entry : set.array(root, "species", 1, shared::kMaxSpecies)) {
         Species species;
         species.name = set.text(entry, "name");

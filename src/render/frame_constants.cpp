@@ -4,13 +4,13 @@
 
 #include "render/field_state.h"
 #include "shared/bend.h"
+#include "shared/sward.h"
 #include "shells/far_appearance.h"
 
 namespace sward::render {
 
 namespace {
 
-constexpr double kAnchorGrid_m = 64;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 // Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at the hand-over, since a
 // widened blade covers more than its shell image would.
@@ -77,7 +77,8 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     Shot shot;
     const grass::GrassSet& set = world.grass;
     const glm::dvec3 eye = lens.eye;
-    shot.anchor = {std::round(eye.x / kAnchorGrid_m) * kAnchorGrid_m, std::floor(eye.y), std::round(eye.z / kAnchorGrid_m) * kAnchorGrid_m};
+    constexpr double kGrid = shared::kAnchorGrid_m;
+    shot.anchor = {std::round(eye.x / kGrid) * kGrid, std::floor(eye.y), std::round(eye.z / kGrid) * kGrid};
     const glm::dvec2 anchor(shot.anchor.x, shot.anchor.z);
     const glm::dvec3 lod_eye = settings.lod_eye.value_or(eye);
     const double focal_px = lens.focal_px(settings.width, settings.height);
@@ -121,8 +122,12 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
         out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};
     }
     out.near_m = static_cast<float>(lens.near_m);
-    out.ground_colours[0] = {0.085f, 0.062f, 0.040f, 0}; // soil with litter
-    out.ground_colours[1] = {0.17f, 0.155f, 0.135f, 0};  // bare rock and scree
+    out.soil = {0.085f, 0.062f, 0.040f, set.floor.cover};
+    out.rock = {0.17f, 0.155f, 0.135f, 0}; // and scree
+    out.moss = glm::vec4(set.floor.moss, 0);
+    out.litter = glm::vec4(set.floor.litter, 0);
+    out.anchor_x = static_cast<int>(shot.anchor.x / shared::kAnchorGrid_m);
+    out.anchor_z = static_cast<int>(shot.anchor.z / shared::kAnchorGrid_m);
     return shot;
 }
 

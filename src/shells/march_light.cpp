@@ -78,7 +78,7 @@ glm::vec3 MeanMarch::radiance(const shared::Light& light, const glm::vec4& wind,
     shared::MarchWalk walk = shared::march_begin(path);
     for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, walk) && through > shared::kMarchEnd; ++n) {
         const shared::MarchStep step = shared::march_step(medium_, path, plan, walk, {static_cast<float>(n), scale});
-        const float left = through * std::exp(-scale * step.depth);
+        const float left = through * std::exp(-shared::march_beside(scale * step.depth));
         const auto layer = static_cast<std::size_t>(step.layer);
         const glm::vec3 tangent = shared::march_turned(path, step.rest.y, {0, medium_.layers[step.layer].x, 0});
         shared::march_gather(sums, here, light.to_sun.y,

@@ -11,6 +11,7 @@
 #include "gl/framebuffer.h"
 #include "gl/shader_source.h"
 #include "shared/bend.h"
+#include "shared/tile_lie.h"
 
 namespace sward::tests {
 namespace {
@@ -57,8 +58,12 @@ protected:
         }
         return out;
     }
+    /// A blade as it lies on its tile.
+    [[nodiscard]] BladeRecord laid(glm::uvec2 which) const {
+        return shared::lay_blade(list_.tiles[which.x].lie, world_.set.blades[which.y], world_.set.side_m);
+    }
     [[nodiscard]] vec3 root(glm::uvec2 which) const {
-        const vec2 xz = vec2(list_.tiles[which.x].place) + vec2(world_.set.blades[which.y].root);
+        const vec2 xz = list_.tiles[which.x].corner + vec2(laid(which).root);
         return {xz.x, static_cast<float>(kGround_m - world_.anchor.y), xz.y};
     }
 
@@ -91,11 +96,8 @@ protected:
         }
         int expected = 0;
         for (const glm::uvec2& item : list_.items) {
-            for (unsigned b = item.y;
-                 b <
-                 std::min(item.y + CULL_GROUP, static_cast<unsigned>(list_.tiles[item.x].place.z));
-                 ++b) {
-                const BladeRecord& blade = world_.set.blades[b];
+            for (unsigned b = item.y; b < std::min(item.y + CULL_GROUP, list_.tiles[item.x].end); ++b) {
+                const BladeRecord blade = laid({item.x, b});
                 const vec3 at = root({item.x, b});
                 const vec2 band(world_.frame.handover);
                 const float d = glm::distance(at, vec3(world_.frame.lod_eye)),
@@ -175,7 +177,7 @@ TEST_F(Cull, OrientationTakesBladesEdgeOn) {
     std::size_t taken = 0;
     for (const glm::uvec2& s : all) {
         const vec3 view = glm::normalize(root(s) - vec3(world_.frame.eye));
-        const float along = std::abs(glm::dot(view, shared::blade_width_direction(world_.set.blades[s.y].shape.x)));
+        const float along = std::abs(glm::dot(view, shared::blade_width_direction(laid(s).shape.x)));
         if (std::abs(along - 0.9f) > 1e-4f) {
             EXPECT_EQ(left.count({s.x, s.y}), along > 0.9f ? 0u : 1u);
             taken += along > 0.9f;
@@ -345,7 +347,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
     int folded = 0, posed = 0, checked = 0, fluttering = 0;
     for (std::size_t n = 0; n < survivors.size(); n += 7) {
         const glm::uvec2 which = survivors[n];
-        const BladeRecord& blade = world_.set.blades[which.y];
+        const BladeRecord blade = laid(which);
         const vec3 at = root(which);
         const float distance = glm::distance(at, vec3(world_.frame.lod_eye));
         const float shell =

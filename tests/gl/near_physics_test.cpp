@@ -9,6 +9,7 @@
 #include "blades/simulation.h"
 #include "gl/fixture.h"
 #include "shared/bend.h"
+#include "shared/tile_lie.h"
 
 namespace sward::tests {
 namespace {
@@ -84,7 +85,7 @@ protected:
             const std::size_t first = world_.set.variant_begin[variant], end = world_.set.variant_begin[variant + 1];
             const vec2 corner(glm::dvec2(page.tile) * static_cast<double>(world_.set.side_m) - glm::dvec2(world_.anchor.x, world_.anchor.z));
             for (std::size_t n = first; n < end; ++n) {
-                const auto& blade = world_.set.blades[pages.order().blades[n]];
+                const auto blade = shared::lay_blade(shared::tile_lie(page.tile), world_.set.blades[pages.order().blades[n]], world_.set.side_m);
                 const vec2 xz = corner + vec2(blade.root);
                 const std::size_t patch = slot * stride + (n - first) / CULL_GROUP;
                 out.push_back({patch * CULL_GROUP + (n - first) % CULL_GROUP, blade, {xz.x, static_cast<float>(kGround_m - world_.anchor.y), xz.y}, patch});

@@ -358,7 +358,8 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
     EXPECT_EQ(offset_of("frame.wind.layers[0]"), offsetof(FrameConstants, wind.layers));
     EXPECT_EQ(offset_of("frame.tracks.place"), offsetof(FrameConstants, tracks));
-    EXPECT_EQ(offset_of("frame.ground_colours[0]"), offsetof(FrameConstants, ground_colours));
+    EXPECT_EQ(offset_of("frame.soil"), offsetof(FrameConstants, soil));
+    EXPECT_EQ(offset_of("frame.anchor_x"), offsetof(FrameConstants, anchor_x));
     const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
     EXPECT_EQ(static_cast<std::size_t>(
                   resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)),
@@ -368,7 +369,7 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
 TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
     const std::map<std::string, std::size_t> strides = {
         {"blades[0].root", sizeof(shared::BladeRecord)},
-        {"tiles[0].place", sizeof(shared::BladeTile)},
+        {"tiles[0].corner", sizeof(shared::BladeTile)},
         {"items[0]", sizeof(glm::uvec2)},
         {"survivors[0]", sizeof(glm::uvec2)},
         {"commands[0].vertices", sizeof(shared::DrawCommand)},

@@ -106,7 +106,7 @@ def common_sparkle(pair, moved):
 
 
 def period(ground, metre_px, patch_m=2.0):
-    """How far the spectrum stands out at the patch's period: root of the mean energy at it, along x, along z and at its first harmonics, over
+    """How far the spectrum stands out at the patch's period: root of the mean energy at it, along x, along z and at its harmonics up to the third, over
     that of what surrounds those places. `ground`: luminance seen from straight above, `metre_px` pixels a metre. Noise fills
     the surroundings and lowers it."""
     ground = check_luminance(ground)
@@ -117,7 +117,7 @@ def period(ground, metre_px, patch_m=2.0):
     window = np.outer(np.hanning(pixels), np.hanning(pixels))
     cut = ground[:pixels, :pixels]
     energy = np.abs(np.fft.fft2((cut / cut.mean() - 1) * window)) ** 2
-    peaks = [(0, side), (side, 0), (side, side), (0, 2 * side), (2 * side, 0)]
+    peaks = [(i * side, j * side) for i in range(4) for j in range(4) if i + j > 0]
     near = [energy[i + di, j + dj] for i, j in peaks for di in range(-2, 3) for dj in range(-2, 3) if max(abs(di), abs(dj)) == 2]
     return float(np.sqrt(max(np.mean([energy[p] for p in peaks]), 0) / max(np.mean(near), 1e-12)))
 

@@ -28,17 +28,13 @@ PLANES_CASES = CASES[:2]
 MEASURES = ("coverage", "luminance", "hue", "contrast0", "contrast1", "contrast2", "contrast3", "sparkle_right", "sparkle_down")
 RING = 0.10  # change of contrast or luminance from 5 % of distance to the next: asked for
 RING_REACHED = 0.28  # what the march is held to: measured 0.25 in contrast, 0.02 in luminance
-PERIOD_REACHED = 2.0  # likewise, for a limit of 1.2: measured 1.83, by little noise beside the same lattice
 
 
-def shaders_of_one_variant(target):
-    """A copy of the shaders in whose far field every patch is the same one."""
+def shaders_of_one_lie(target):
+    """A copy of the shaders in whose far field the patch lies on every tile as it was grown."""
     shutil.copytree(sward_cli.SOURCE / "shaders", target)
-    source = target / "shared/hash.h"
-    text = source.read_text()
-    changed = text.replace("return int(((hash_ivec2(tile, 0x5eedu)", "return 0 * int(((hash_ivec2(tile, 0x5eedu)", 1)
-    assert changed != text, "hash.h chooses no variant"
-    source.write_text(changed)
+    source = target / "shared/tile_lie.h"
+    source.write_text(source.read_text() + "\n#define tile_lie(tile) kLieAsGrown\n") # what includes it calls no other
     return target
 
 
@@ -89,13 +85,16 @@ class Far(unittest.TestCase):
                 self.assertTrue(np.allclose(result["contrast"], 1, atol=0.15), result["contrast"])
 
     def test_period(self):
-        """Against the truth, whose flowers repeat too. The planes' noise hides what repeats; a field of one variant shows it."""
+        """Nothing stands out of the spectrum at the patch's period. The planes are drawn as the patch was grown, and show it; so does a march
+        that lays it so."""
         truth, march, planes = self.period(), self.period(BUILDS["march"]), self.period(BUILDS["planes"])
         with tempfile.TemporaryDirectory(prefix="sward-far-") as folder:
-            alike = self.period(BUILDS["march"], shaders_of_one_variant(Path(folder) / "shaders"))
-        print(f"period: truth {truth:.2f}; march {march / truth:.2f}, planes {planes / truth:.2f}, one variant {alike / truth:.2f} times as much")
-        self.assertLessEqual(march / truth, PERIOD_REACHED)
-        self.assertGreater(alike / march, LIMITS["period"])
+            alike = self.period(BUILDS["march"], shaders_of_one_lie(Path(folder) / "shaders"))
+        print(f"period: truth {truth:.2f}, march {march:.2f}, planes {planes:.2f}, march as grown {alike:.2f} times what surrounds it")
+        self.assertLessEqual(truth, LIMITS["period"])
+        self.assertLessEqual(march, LIMITS["period"])
+        self.assertGreater(planes, 1.5 * LIMITS["period"])
+        self.assertGreater(alike, 1.5 * LIMITS["period"])
 
     def test_ring(self):
         found = {build: far_views.ring_change(arguments) for build, arguments in BUILDS.items()}

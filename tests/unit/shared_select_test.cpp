@@ -12,6 +12,7 @@
 #include "lod/lod.h"
 #include "shared/bindings.h"
 #include "shared/hash.h"
+#include "shared/tile_lie.h"
 #include "shells/far_instances.h"
 #include "shells/far_shares.h"
 
@@ -112,10 +113,9 @@ protected:
     Blades listed(const blades::TileList& list) const {
         Blades out;
         for (const glm::uvec2& item : list.items) {
-            const glm::vec4 place = list.tiles[item.x].place;
-            for (std::uint32_t b = item.y;
-                 b < std::min(item.y + CULL_GROUP, static_cast<std::uint32_t>(place.z)); ++b) {
-                EXPECT_TRUE(out.emplace(place.x, place.y, b).second) << "a blade listed twice";
+            const shared::BladeTile& tile = list.tiles[item.x];
+            for (std::uint32_t b = item.y; b < std::min(item.y + CULL_GROUP, tile.end); ++b) {
+                EXPECT_TRUE(out.emplace(tile.corner.x, tile.corner.y, b).second) << "a blade listed twice";
             }
         }
         return out;
@@ -143,7 +143,8 @@ protected:
             const glm::vec2 place(corner - glm::dvec2(query_.anchor.x, query_.anchor.z));
             for (std::uint32_t b = set_.variant_begin[variant]; b < set_.variant_begin[variant + 1];
                  ++b) {
-                if (wanted(corner + glm::dvec2(set_.blades[b].root), set_.blades[b], clip)) {
+                const shared::BladeRecord blade = shared::lay_blade(shared::tile_lie(tile), set_.blades[b], set_.side_m);
+                if (wanted(corner + glm::dvec2(blade.root), blade, clip)) {
                     ++near;
                     EXPECT_TRUE(in_list.count({place.x, place.y, b}))
                         << "tile " << tile.x << "," << tile.y << " blade " << b;
@@ -188,7 +189,7 @@ TEST_F(BladeTiles, ComeNearestFirstAndCountWhatTheyHold) {
     }
     const glm::vec2 eye(query_.eye.x, query_.eye.z);
     const auto gap = [&](const shared::BladeTile& tile) {
-        const glm::vec2 low = glm::vec2(tile.place) - eye;
+        const glm::vec2 low = tile.corner - eye;
         return glm::length(glm::max(glm::max(low, -low - set_.side_m), glm::vec2(0)));
     };
     for (const shared::BladeTile& tile : list.tiles) {
