@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: survivors of the cull pass, states of the living blades. Out: a posed blade for the tessellator.
 #include "lib/blade_pose.glsl"
-#include "lib/sway.glsl"
 #include "shared/sward.h"
 
 layout(std430, binding = BIND_SURVIVORS) readonly buffer Survivors { uvec2 survivors[]; };
@@ -21,7 +20,7 @@ void main() {
     BladePose pose = blade_pose(which, blade);
     Ground ground = ground_surface(pose.root.xz);
     float tint = sward_patches(pose.root.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance(pose.root, frame.eye.xyz) / frame.eye.w);
-    blade_out.sway = sway_at(pose.root, pose.wind);
+    blade_out.sway = sway_at(pose.root, pose.sway);
     blade_out.root = vec4(pose.root, pose.from_eye);
     blade_out.v1 = vec4(pose.v1, blade.v1.w);
     blade_out.v2 = vec4(pose.v2, pose.facing);

@@ -133,7 +133,7 @@ void main() {
     if (within < uint(entry.page.run.y)) {
         PhysicsRecord blade = physics_laid(entry.page, record_at(uint(entry.page.run.x) + within));
         vec3 root = physics_root(entry.page, blade, kMeets && (list.y > 0u || needs_height()));
-        vec2 wind = wind_of(step_wind, root.xz);
+        vec2 wind = physics_wind(root.xz);
         uint at = patch_id * uint(CULL_GROUP) + lane;
         bool moves = true;
         if (kBegins && (!kGoesOn || status == kPatchNew)) {

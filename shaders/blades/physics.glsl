@@ -7,6 +7,7 @@
 #include "shared/surface_blade.h"
 #else
 #include "lib/ground.glsl"
+#include "lib/track.glsl"
 #include "shared/tile_lie.h"
 #endif
 
@@ -50,6 +51,18 @@ vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
     vec2 xz = page.place.xy + blade.root.xy;
     return vec3(xz.x, high ? ground_at(xz) : 0.0, xz.y);
 #endif
+}
+
+// What bends living blades at a place: the wind, and where stems lie pressed what holds them there; from it one that wakes begins. What springs
+// back by itself they do by their own contacts.
+vec2 physics_wind(vec2 xz) {
+    vec2 wind = wind_of(step_wind, xz);
+#ifndef SURFACE
+    if (has_tracks()) {
+        wind = sway_wind(wind, rules.time.z > 0.0 ? rules.time.z : frame.wind.mean.w, vec2(0.0), track_at(xz, 0.0).zw);
+    }
+#endif
+    return wind;
 }
 
 BladeBody physics_body(PhysicsRecord blade, vec3 root) {

@@ -2,8 +2,7 @@
 // A blade of a tile as it stands in this frame (J1, J4 or W3, B3, W6's flutter): to draw it, and to find out whether anything of it is
 // seen. Both must get the same.
 #include "lib/blade_place.glsl"
-#include "lib/wind.glsl"
-#include "shared/bend.h"
+#include "lib/sway.glsl"
 #include "shared/blade_pages.h"
 #include "shared/blade_physics.h"
 
@@ -17,7 +16,7 @@ struct BladePose {
     float facing;
     float from_eye;  // distance from the place that tier selection measures from
     float simulated; // share of the simulated pose
-    vec2 wind;
+    Sway sway;       // what bends it
 };
 
 // Moves a pose to the blade's own one, where its tile has a page, by what the hand-over leaves of it; returns the share.
@@ -44,14 +43,20 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
     pose.from_eye = distance(pose.root, frame.lod_eye.xyz);
     pose.v1 = blade.v1.xyz;
     pose.v2 = blade.v2.xyz;
-    pose.wind = wind_at(pose.root.xz);
+    pose.sway = sway_at(pose.root.xz, 0.0);
+    vec2 wind = pose.sway.wind;
     float shell = pose_share(blade.root.z, pose.from_eye, frame.pose_band.xy);
-    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), pose.wind);
+    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), wind);
     pose.simulated = live(which, blade, pose.root, pose.v1, pose.v2);
+    float lying = lying_height(pose.sway.pressed);
+    if (lying < 1.0) { // after contacts and wind: what lies is lower, in every tier by the same factor
+        pose.v1.y *= lying;
+        pose.v2.y *= lying;
+    }
     // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * flutter_amplitude(length(pose.wind), frame.wind.mean.w);
+    float amplitude = (1.0 - shell) * (1.0 - min(length(pose.sway.pressed), 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
     vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
-    flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, pose.wind);
+    flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
     pose.facing = blade.shape.x + flutter.z;
     return pose;
 }

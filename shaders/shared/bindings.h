@@ -77,6 +77,14 @@
 #define BIND_WIND_TARGET 4     // vec2[]: three groups of two stream functions a corner, what the ambient wind is drawn to
 #define BIND_WIND_TOTALS 5     // float[]: mean and mean square of the ambient tile
 
+// Storage blocks of the tracks' passes, which run before the blades' physics.
+#define BIND_TRACK_BENDS 0     // vec4[]: theta, omega; a cell
+#define BIND_TRACK_CHANGES 1   // vec4[]: their changes in the last step
+#define BIND_TRACK_PRESSED 2   // vec2[]
+#define BIND_TRACK_PAGES 3     // TrackPage[]: what is stepped or shown
+#define BIND_TRACK_PRINTS 4    // TrackPrint[]: page by page
+#define BIND_TRACK_SHOWN 5     // uvec2[]: theta, pressed as half floats, a level after the other
+
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
 #define TEX_CLIP_SURFACE 1     // RGBA8 array: normal x, z, density, tint
@@ -105,6 +113,8 @@
 #define TEX_SECOND_AIR 24
 #define TEX_CANOPY_SAMPLES 27   // depth of the canopy's upper surface, a value a sample of the scene
 #define TEX_CANOPY_EXIT 25     // RGBA16F: length of a ray's way through a mesh's canopy and the height where it ends (m); the same of its second part
+#define TEX_TRACK_SHOWN 28     // RGBA16F buffer: bend and what is pressed, kTrackTexels a page
+#define TEX_TRACK_TABLE 29     // RGBA32I buffer: page x, z; its slot, -1: none; a hashed table
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list
@@ -119,6 +129,7 @@
 #define WIND_GROUP_Y 4
 #define WIND_SOLVE_GROUP 256   // threads that solve the coarsest level, and that add up sums
 #define WIND_SOLVE_SIDE 64     // its greatest side; shared memory holds it
+#define TRACK_GROUP 16         // tracks: 16 x 16 cells
 #define WIND_TILE 16           // forces and solids are binned by tiles of so many cells a side; one workgroup each
 
 // What the cull pass counts, and the bits that switch its tests (J7).

@@ -6,6 +6,7 @@
 #include "shared/grass_layout.h"
 #include "shared/lod.h"
 #include "shared/shading.h"
+#include "shared/track.h"
 #include "shared/types.h"
 #include "shared/wind.h"
 
@@ -36,6 +37,7 @@ struct FrameConstants {
     GrassAppearance looks[kMaxSpecies];
     Light light;
     WindField wind;
+    TrackField tracks;
     vec4 soil;       // rgb; a: share of it under moss and litter (grass::Floor)
     vec4 rock;       // rgb; a: unused
     vec4 moss;       // likewise
@@ -47,7 +49,7 @@ struct FrameConstants {
     float unused_a; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 112);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

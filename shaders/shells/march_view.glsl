@@ -8,6 +8,9 @@
 layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
 #include "shared/march.h"
 #include "shared/surface_chart.h"
+#ifndef SURFACE
+#include "lib/sway.glsl"
+#endif
 
 layout(binding = TEX_CANOPY_DEPTH) uniform sampler2D canopy_depth;
 layout(binding = TEX_CANOPY_GROUND) uniform sampler2D canopy_ground;
@@ -32,6 +35,9 @@ struct Entry {
     float height;   // over the ground (m)
     vec4 ground;    // slope (of a mesh: unused; room), density, tint
     vec4 air;       // wind, canopy_sway
+#ifndef SURFACE
+    float lying;    // factor on heights where stems lie (lying_height)
+#endif
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
     vec2 place;     // of the entry on its chart (m)
@@ -57,6 +63,36 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
+// Tracks are finer than the vertices that the canopy's surface was drawn by, which know the wind alone: where stems lie, the ray goes on down
+// to what is left of the canopy, or comes to the side of what stands beside it.
+const int kTrackSteps = 4;
+Entry entry_on_track(View view, Entry entry) {
+    float canopy = frame.patch_grid.w;
+    float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
+    vec4 standing = entry.air;
+    entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.mean.w).y;
+    for (int n = 0; n < kTrackSteps; ++n) {
+        vec3 at = frame.eye.xyz + view.way * min(entry.distance, kFarthest);
+        vec4 track = track_at(at.xz, entry.distance / (frame.eye.w * sqrt(max(fall, 0.1))));
+        if (dot(track, track) < 1e-6) {
+            entry.lying = 1.0;
+            entry.air = standing;
+            break;
+        }
+        Sway here = Sway(sway_wind(standing.xy, frame.wind.mean.w, track.xy, track.zw), track.zw);
+        entry.lying = lying_height(here.pressed);
+        entry.air = vec4(here.wind, sway_at(at - vec3(0.0, entry.height, 0.0), here).xy);
+        float down = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.mean.w).y);
+        if (down < 0.02 * canopy || n == kTrackSteps - 1) {
+            break;
+        }
+        down = min(down, 0.3 * canopy); // no farther at once: something may stand there
+        entry.height -= down;
+        entry.distance += down / fall;
+    }
+    return entry;
+}
+
 // Where the ray comes through the canopy's upper surface from above.
 Entry entry_from_above(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
@@ -66,12 +102,13 @@ Entry entry_from_above(View view, ivec2 pixel) {
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
     }
-    return Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0));
+    Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0);
+    return has_tracks() && distance_m < kNever ? entry_on_track(view, entry) : entry;
 }
 
 Entry entry_of(View view, ivec2 pixel) {
     if (eye_place.x > 0.5) { // the eye stands in the canopy
-        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air);
+        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0);
     }
     return entry_from_above(view, pixel);
 }
@@ -90,11 +127,19 @@ MarchPath path_of(View view, Entry entry) {
     float fall = view.way.y - dot(entry.ground.xy, view.way.xz);
     float most = 40.0 * canopy + 0.02 * entry.distance;
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
+    float lying = 1.0;
+    if (has_tracks()) { // heights are counted as they were before the stems lay down
+        lying = entry.lying;
+        height = min(entry.height / lying, path.bend.w);
+        path.from.y = height;
+        path.way.y /= lying;
+        fall /= lying;
+    }
     path.height = vec4(height, fall, 0.0, 1.5 * reach + 0.1 * canopy); // beyond, the ground is another one
     if (reach > kLowPath * canopy) { // low over the ground: it curves under the ray
         vec2 ahead = at.xz + reach * view.way.xz;
         float rise = ground_at(ahead) - ground_at(at.xz) - dot(entry.ground.xy, ahead - at.xz);
-        path.height.z = -rise / (reach * reach);
+        path.height.z = -rise / (reach * reach * lying);
     }
     return path;
 }

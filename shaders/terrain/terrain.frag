@@ -3,6 +3,7 @@
 // same share as the last shells and slices.
 #include "lib/ground.glsl"
 #include "lib/output.glsl"
+#include "lib/sway.glsl"
 #include "shared/sward.h"
 
 layout(binding = TEX_FAR_APPEARANCE) uniform sampler2DArray far_appearance;
@@ -51,8 +52,12 @@ void main() {
     vec3 to_eye = -from_eye / distance_m;
     Ground ground = ground_surface(world.xz);
 
+    float shade = sway.y; // of the grass over it
+    if (has_tracks()) {   // which are finer than the vertices
+        shade = sway_at(world, sway_at(world.xz, distance_m / frame.eye.w)).y;
+    }
     vec3 soil_albedo = soil_colour(world.xz, ground, distance_m / frame.eye.w * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
-    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, sway.y)), soil_albedo, ground.normal, ground.density);
+    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, shade)), soil_albedo, ground.normal, ground.density);
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
     left_shells *= frame.grass.z; // 0 where no tier hands its blades to the ground (--tiers blades, reference)

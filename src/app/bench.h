@@ -64,6 +64,9 @@ void bench_physics(BenchReport& report);
 /// scene does. Needs a current context.
 void bench_near(BenchReport& report, const Options& options);
 
+/// Suite `tracks`: a step of the published pool of pages (C7), with all of them awake and asleep. Needs a current context.
+void bench_tracks(BenchReport& report);
+
 /// Suite `far`: the driver's view with the march and with the planes, in turns, and what its rays read; frames on a small land and on a large one.
 /// Throws Error as loading a scene does. Needs a current context.
 void bench_far(BenchReport& report, const Options& options);

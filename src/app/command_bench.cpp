@@ -40,6 +40,8 @@ void run_bench(const Options& options) {
     const auto asked = [&](const char* suite) { return options.bench_suite == "all" || options.bench_suite == suite; };
     if (asked("wind"))
         bench_wind(report);
+    if (asked("tracks"))
+        bench_tracks(report);
     if (asked("near"))
         bench_near(report, options);
     if (asked("far"))

@@ -113,12 +113,30 @@ void write_sequence_stats(const Options& options, const std::vector<std::string>
     }
 }
 
+/// Before any costly work: tracks need a scene that has some, and a file that ends as what it will be.
+void check_tracks(const Options& options, const scene::Scene& scene) {
+    for (const auto& [name, file] : {std::pair{"--tracks", &options.tracks}, std::pair{"--save-tracks", &options.save_tracks}}) {
+        if (file->empty())
+            continue;
+        if (!scene.tracks)
+            throw base::Error(base::ExitCode::kUsage, fmt::format("{}: found a scene without [tracks], expected one with it", name));
+        if (!is_linear(*file))
+            throw base::Error(base::ExitCode::kUsage, fmt::format("{}: found {}, expected the name of an .exr", name, base::printable(file->native())));
+    }
+}
+
+void take_tracks(const Options& options, Field& field) {
+    if (!options.tracks.empty())
+        render::Access::state(field).tracks->begin_with(read_linear(options.tracks), base::printable(options.tracks.native()));
+}
+
 } // namespace
 
 void run_render(const Options& options) {
     check_outputs(options);
     const scene::Scene scene = load_scene(options);
     check_not_inputs(options, scene);
+    check_tracks(options, scene);
     Shot shot = plan_shot(options, scene);
 
     gl::DebugMessages messages;
@@ -130,6 +148,8 @@ void run_render(const Options& options) {
     settle(shot, options, world);
     Field field = render::Access::field_of(std::move(world));
     View view(field);
+
+    take_tracks(options, field);
 
     const OutputNames names(options);
     const std::string gpu = gl::context_info().renderer;
@@ -162,6 +182,10 @@ void run_render(const Options& options) {
             progress->advance();
     }
     require_silence(messages);
+    if (!options.save_tracks.empty()) {
+        make_parent(options.save_tracks);
+        write_linear(options.save_tracks, render::Access::state(field).tracks->picture());
+    }
     if (options.frames)
         write_sequence_stats(options, stats);
     else

@@ -41,5 +41,7 @@ namespace sward::app {
 /// Write a file whole or not at all. Throw Error(kIo).
 void write_display(const std::filesystem::path& path, const scene::Picture& picture);
 void write_linear(const std::filesystem::path& path, const scene::Image& image);
+/// Reads what write_linear wrote. The core build reads none: throws Error(kBadInput).
+[[nodiscard]] scene::Image read_linear(const std::filesystem::path& path);
 
 } // namespace sward::app

@@ -53,4 +53,8 @@ void write_linear(const std::filesystem::path& path, const scene::Image&) {
                             "a .ppm picture (the core build writes no other)");
 }
 
+scene::Image read_linear(const std::filesystem::path& path) {
+    throw base::input_error(ExitCode::kBadInput, path, 0, "picture", "EXR", "none (the core build reads no pictures)");
+}
+
 } // namespace sward::app

@@ -48,4 +48,8 @@ void write_linear(const std::filesystem::path& path, const scene::Image& image) 
     assets::write_exr(path, image);
 }
 
+scene::Image read_linear(const std::filesystem::path& path) {
+    return assets::read_exr(path);
+}
+
 } // namespace sward::app

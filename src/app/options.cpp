@@ -38,7 +38,7 @@ constexpr std::array<std::pair<std::string_view, HandoverMode>, 4> kHandovers = 
 constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
     {{"1", 1}, {"2", 2}, {"4", 4}}};
 
-constexpr std::array<std::pair<std::string_view, const char*>, 4> kSuites = {{{"all", "all"}, {"far", "far"}, {"near", "near"}, {"wind", "wind"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 5> kSuites = {{{"all", "all"}, {"far", "far"}, {"near", "near"}, {"tracks", "tracks"}, {"wind", "wind"}}};
 
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
@@ -181,6 +181,8 @@ void declare_render(CLI::App& app, Options* o) {
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
             [=](const std::string& text) { o->frames = parse_frames("--frames", text); });
+    declare_path(app, "--tracks", "FILE.exr", "what lay pressed at time 0, as --save-tracks wrote it; for scenes with [tracks]", &o->tracks);
+    declare_path(app, "--save-tracks", "FILE.exr", "writes what lies pressed at the end", &o->save_tracks);
     declare_test_options(app, o);
     declare(app, "--lod-eye", "x,y,z", "tiers are chosen as if the eye stood here",
             [=](const std::string& text) { o->lod_eye = parse_eye("--lod-eye", text); })
@@ -225,7 +227,7 @@ void declare_wind(CLI::App& app, Options* o) {
 }
 
 void declare_bench(CLI::App& app, Options* o) {
-    declare(app, "SUITE", "all|far|near|wind", "what is measured; default all",
+    declare(app, "SUITE", "all|far|near|tracks|wind", "what is measured; default all",
             [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
     declare_path(app, "--json", "FILE", "the figures as JSON", &o->bench_json);
     declare(app, "--size", "WxH", "pixels of the suites far and near; default 1280x720 and 512x384", [=](const std::string& text) {

@@ -47,9 +47,11 @@ struct Options {
     std::optional<scene::Pose> lod_eye;
     std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
+    std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
+    std::filesystem::path save_tracks; ///< what lies at the end; empty: not kept
 
     // bench
-    std::string bench_suite = "all"; ///< or far, near, wind
+    std::string bench_suite = "all"; ///< or far, near, tracks, wind
     glm::ivec2 bench_size{0, 0}; ///< 0: each suite's own
     bool bench_full = false;
     std::filesystem::path bench_json; ///< empty: none

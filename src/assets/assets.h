@@ -49,6 +49,8 @@ struct ByteImage {
 void write_png(const std::filesystem::path& path, const ByteImage& image);
 /// Half-float (colour) and float (everything else) EXR, zip-compressed, named channels. Throws Error(kIo).
 void write_exr(const std::filesystem::path& path, const scene::Image& image);
+/// Reads an EXR with all of its channels and its text attributes. Throws Error: kIo, kBadInput, kOverLimit.
+[[nodiscard]] scene::Image read_exr(const std::filesystem::path& path);
 
 /// One line with the versions of the heavy libraries, for `sward info`.
 [[nodiscard]] std::string library_versions();

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "assets/ascii_grid.h"
+#include "assets/assets.h"
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -146,6 +147,39 @@ Channel read_exr_channel(const std::filesystem::path& path, const ChannelRequest
     [[maybe_unused]] const std::string no_more =
         input->geterror(); // what is never asked for is printed
     return in_display_window(path, spec, bytes.size(), request.least_side, data);
+}
+
+scene::Image read_exr(const std::filesystem::path& path) {
+    const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
+    if (format_of(bytes) != Format::kExr)
+        throw bad(path, "format", "another in its first bytes", "EXR");
+    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
+    const auto input = OIIO::ImageInput::create("openexr");
+    if (!input)
+        throw base::Error(ExitCode::kFailure, "OpenImageIO has no reader for EXR: " + OIIO::geterror());
+    OIIO::ImageSpec config, spec;
+    void* proxy = &memory;
+    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+    const auto decode_error = [&] {
+        const std::string error = input->geterror() + OIIO::geterror();
+        return bad(path, "cannot decode", error.empty() ? "broken data" : error, "a whole picture");
+    };
+    if (!input->open("memory.exr", spec, config))
+        throw decode_error();
+    check_spec(path, spec, bytes.size(), 1);
+    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
+    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
+    scene::Image image;
+    image.width = spec.width;
+    image.height = spec.height;
+    image.channels = spec.channelnames;
+    image.texels.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data()))
+        throw decode_error();
+    for (const OIIO::ParamValue& attribute : spec.extra_attribs)
+        if (attribute.type() == OIIO::TypeDesc::STRING)
+            image.metadata[attribute.name().string()] = attribute.get_string();
+    return image;
 }
 
 void check_rows_per_strip(const std::filesystem::path& path, std::optional<int> rows) {

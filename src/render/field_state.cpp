@@ -52,6 +52,16 @@ void free_texels(grass::GrassSet& set) {
     }
 }
 
+std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double time_s, double step_s) {
+    std::vector<tracks::Ball> out;
+    if (colliders.any()) {
+        for (const blades::MovingSphere& sphere : colliders.at(time_s, step_s)) {
+            out.push_back({sphere.centre, sphere.before, sphere.radius_m});
+        }
+    }
+    return out;
+}
+
 } // namespace
 
 FieldState::FieldState(World inputs)
@@ -67,6 +77,11 @@ FieldState::FieldState(World inputs)
         mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
         mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
         world.surface = {};
+    }
+    if (world.scene.tracks) {
+        tracks = std::make_unique<tracks::Tracks>(world.scene, world.grass.canopy_m,
+                                                  tracks::Tracks::Inputs{[this](double x, double z) { return surface.height(x, z); },
+                                                                         [this](double then_s, double step_s) { return balls_of(colliders, then_s, step_s); }});
     }
     free_texels(world.grass);
 }
@@ -102,6 +117,7 @@ void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const S
         throw base::Error(base::ExitCode::kBadInput, "simulate: eyes: found none, expected one or more");
     }
     timers.begin_frame(settings.wait_in_passes);
+    track(time, eyes);
     light_followed_ = false;
     const glm::dvec3 eye = eyes.front();
     blades::LivingBlades* const alive = wake(settings, static_cast<int>(eyes.size()));
@@ -126,6 +142,14 @@ void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const S
     }
     time_s = time;
     eyes_.assign(eyes.begin(), eyes.end());
+}
+
+void FieldState::track(double time, std::span<const glm::dvec3> eyes) {
+    if (tracks) {
+        const gl::PassScope pass(timers, pass_names::kTracks);
+        tracks->advance(time, eyes);
+        tracks->bind();
+    }
 }
 
 double FieldState::away_from_eyes(glm::dvec3 place) const {
@@ -183,6 +207,11 @@ void FieldState::add_stats(FrameStats& stats) const {
         stats.physics_bytes = mesh_ground ? surface_simulation->bytes() : alive->pass().bytes();
         stats.sphere_pairs = alive->sphere_pairs();
     }
+    if (tracks) {
+        stats.track_pages = tracks->pages().used();
+        stats.track_bytes = tracks->bytes();
+        stats.track_memory_bytes = tracks->memory().bytes();
+    }
     if (mesh_ground) {
         stats.surface_bytes = mesh_ground->grass().bytes();
     }
@@ -227,6 +256,7 @@ void FieldState::reload(std::vector<std::string>& failures) {
                       +[](FieldState& f) { if (f.simulation) { f.simulation->pass().reload(); } },
                       +[](FieldState& f) { if (f.surface_simulation) { f.surface_simulation->pass().reload(); } },
                       +[](FieldState& f) { if (f.mesh_ground) { f.mesh_ground->grass().reload(); } },
+                      +[](FieldState& f) { if (f.tracks) { f.tracks->reload(); } },
                       +[](FieldState& f) { f.wind.reload(); f.sources().reload(); }}) {
         try {
             part(*this);

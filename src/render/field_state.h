@@ -24,6 +24,7 @@
 #include "terrain/clipmap.h"
 #include "terrain/detail.h"
 #include "terrain/terrain_pass.h"
+#include "tracks/tracks.h"
 #include "wind/sources.h"
 #include "wind/wind.h"
 
@@ -87,6 +88,7 @@ struct FieldState {
     std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field on elevation
     std::unique_ptr<blades::Simulation> simulation; ///< of the set's blades; made for the first frame that wants it
     std::unique_ptr<blades::SurfaceSimulation> surface_simulation; ///< of a mesh's; goes before its ground
+    std::unique_ptr<tracks::Tracks> tracks; ///< of a scene that has some
     Objects objects;
     mutable gl::PassTimers timers; ///< of simulate(); reading their queries changes nothing
     double time_s = 0;
@@ -100,6 +102,8 @@ private:
     [[nodiscard]] const blades::LivingBlades* asleep_or_living() const {
         return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get()) : simulation.get();
     }
+
+    void track(double time_s, std::span<const glm::dvec3> eyes);
 
     bool lives_ = false; ///< the last simulate() wanted it
     std::vector<glm::dvec3> eyes_;

@@ -114,6 +114,9 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     }
     out.light = light_of(world.scene.sun);
     out.wind = wind.field(anchor, time_s);
+    if (tracks) {
+        out.tracks = tracks->field(anchor);
+    }
     if (const blades::LivingBlades* alive = living()) {
         const auto reach = static_cast<float>(std::max(alive->reach_m() - away_from_eyes(eye), 0.0));
         out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};

@@ -6,6 +6,7 @@ namespace sward::render::pass_names {
 
 // The passes of FieldState::simulate, "wind" and "physics", are named where they run: blades/simulation.cpp.
 inline constexpr const char* kWind = "wind";
+inline constexpr const char* kTracks = "tracks";
 inline constexpr const char* kClipmap = "clipmap";
 inline constexpr const char* kFarAppearance = "far appearance";
 inline constexpr const char* kSelectBlocks = "select blocks";

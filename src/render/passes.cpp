@@ -57,6 +57,9 @@ void Frame::begin_picture() {
     v_.frame_buffer.upload(&shot_.constants, sizeof(shot_.constants));
     v_.frame_buffer.bind_uniform(BIND_FRAME);
     f_.wind.bind();
+    if (f_.tracks) {
+        f_.tracks->bind();
+    }
     batch_ = 0;
 }
 

@@ -66,6 +66,9 @@ struct FrameStats {
     std::uint64_t physics_steps = 0;     ///< since time 0
     std::uint64_t physics_bytes = 0;     ///< all buffers of the blades' physics
     std::uint64_t sphere_pairs = 0;      ///< of a patch and a collider that it may meet, in the frame's steps
+    std::uint64_t track_pages = 0;       ///< in the tracks' pool
+    std::uint64_t track_bytes = 0;       ///< of the pool, on the GPU
+    std::uint64_t track_memory_bytes = 0; ///< of pages that are out of it
     std::uint64_t surface_bytes = 0;     ///< of a mesh's blades and of what culls them
     std::uint64_t shell_fragments = 0;   ///< of the march: pixels whose ray went through columns; of the planes: that were written
     std::uint64_t slice_fragments = 0;   ///< likewise through slabs; slices

@@ -11,6 +11,7 @@
 #include <glm/glm.hpp>
 
 #include "scene/surface_grass.h"
+#include "scene/track_spec.h"
 #include "scene/wind_spec.h"
 
 namespace sward::scene {
@@ -93,6 +94,7 @@ struct Scene {
     SurfaceGrassSpec surface_grass; ///< of terrain.surface
     SunSpec sun;
     WindSpec wind;
+    std::optional<TrackSpec> tracks; ///< none: nothing stays
     std::vector<ObjectSpec> objects;
     std::map<std::string, Pose> cameras;
     std::map<std::string, Path> paths;

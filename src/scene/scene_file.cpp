@@ -78,6 +78,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     auto surface_grass = root.table("surface_grass");
     auto sun = root.table("sun");
     auto wind = root.table("wind");
+    auto tracks = root.table("tracks");
     auto objects = root.tables("object", kMostObjects);
     auto cameras = root.table("camera");
     auto paths = root.table("path");
@@ -88,6 +89,8 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     read_terrain(*terrain, scene.terrain);
     if (grass)
         read_grass(*grass, scene.grass);
+    if (tracks && !scene.terrain.surface.empty())
+        throw root.error("tracks", "terrain.surface", "terrain.elevation beside it");
     if (surface_grass && scene.terrain.surface.empty())
         throw root.error("surface_grass", "terrain.elevation", "terrain.surface beside it");
     if (surface_grass)
@@ -102,6 +105,8 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
             scene.paths[name] = read_path(table);
     if (wind)
         read_wind(*wind, scene.paths, scene.wind);
+    if (tracks)
+        read_tracks(*tracks, scene.paths, scene.tracks.emplace());
     for (const TableReader& table : objects)
         scene.objects.push_back(read_object(table, scene.paths));
     if (lod)

@@ -18,6 +18,8 @@ void read_colour(TableReader& table, const char* key, glm::dvec3& colour);
 void read_sun(TableReader table, SunSpec& sun);
 /// `paths` are the scene's: a source or obstacle that follows one must name one that exists.
 void read_wind(TableReader table, const std::map<std::string, Path>& paths, WindSpec& wind);
+/// [tracks]; in track_section.cpp. Paths as read_wind's.
+void read_tracks(TableReader table, const std::map<std::string, Path>& paths, TrackSpec& tracks);
 void read_lod(TableReader table, LodSpec& lod);
 [[nodiscard]] Pose read_camera(TableReader table);
 [[nodiscard]] Path read_path(TableReader table);

@@ -45,6 +45,11 @@ std::vector<Variant> variants() {
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
                                 {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
                                 {{"blades/wake.comp"}, {"SURFACE"}},
+                                {{"tracks/change.comp"}, {}},
+                                {{"tracks/advance.comp"}, {}},
+                                {{"tracks/advance.comp"}, {"PRESS_ONLY"}},
+                                {{"tracks/rebase.comp"}, {}},
+                                {{"tracks/show.comp"}, {}},
                                 {{"render/screen.vert", "render/tone_map.frag"}, {}},
                                 {{"render/screen.vert", "render/hand_out.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
@@ -195,6 +200,10 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"Footprints", BIND_WIND_FOOTPRINTS},
         {"Inflow", BIND_WIND_INFLOW},
 
+        {"TrackBends", BIND_TRACK_BENDS}, {"TrackChanges", BIND_TRACK_CHANGES},
+        {"TrackPressed", BIND_TRACK_PRESSED}, {"TrackPages", BIND_TRACK_PAGES},
+        {"TrackPrints", BIND_TRACK_PRINTS}, {"TrackShown", BIND_TRACK_SHOWN},
+
         {"Records", BIND_PHYSICS_BLADES}, {"Pages", BIND_PHYSICS_PAGES},
         {"States", BIND_PHYSICS_STATES},  {"Patches", BIND_PHYSICS_PATCHES},
         {"Awake", BIND_PHYSICS_AWAKE},    {"Dispatch", BIND_PHYSICS_DISPATCH},
@@ -254,6 +263,8 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
                                                 {"depth", TEX_RESOLVE_DEPTH},
+                                                {"track_shown", TEX_TRACK_SHOWN},
+                                                {"track_table", TEX_TRACK_TABLE},
                                                 {"wind_ambient", TEX_WIND_AMBIENT},
                                                 {"wind_local", TEX_WIND_LOCAL},
                                                 {"scene_color", TEX_RESOLVE_COLOR},
@@ -266,7 +277,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"resolved_color", TEX_RESOLVE_COLOR},
                                                 {"resolved_data", TEX_RESOLVE_DATA}};
     const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
-                                      GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER};
+                                      GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER, GL_INT_SAMPLER_BUFFER};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -298,6 +309,10 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
         {"blades/gather.comp", {GATHER_GROUP, 1, 1}},
         {"blades/sift.comp", {CULL_GROUP, 1, 1}},
         {"blades/wake.comp", {WAKE_GROUP, 1, 1}},
+        {"tracks/change.comp", {TRACK_GROUP, TRACK_GROUP, 1}},
+        {"tracks/advance.comp", {TRACK_GROUP, TRACK_GROUP, 1}},
+        {"tracks/rebase.comp", {TRACK_GROUP, TRACK_GROUP, 1}},
+        {"tracks/show.comp", {TRACK_GROUP, TRACK_GROUP, 1}},
         {"blades/physics.comp", {CULL_GROUP, 1, 1}}};
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -351,6 +366,7 @@ TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
     EXPECT_EQ(offset_of("frame.looks[0].light"), offsetof(FrameConstants, looks[0].light));
     EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
     EXPECT_EQ(offset_of("frame.wind.layers[0]"), offsetof(FrameConstants, wind.layers));
+    EXPECT_EQ(offset_of("frame.tracks.place"), offsetof(FrameConstants, tracks));
     EXPECT_EQ(offset_of("frame.soil"), offsetof(FrameConstants, soil));
     EXPECT_EQ(offset_of("frame.anchor_x"), offsetof(FrameConstants, anchor_x));
     const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");

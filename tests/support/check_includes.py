@@ -14,11 +14,12 @@ from pathlib import Path
 
 ARROWS = {
     "app": {"render", "assets"},
-    "render": {"blades", "shells"},
+    "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
     "lod": {"terrain"},
     "wind": {"terrain"},
+    "tracks": {"terrain"},
     "terrain": {"grass", "scene", "gl"},
     "grass": {"base"},
     "scene": {"base"},
@@ -45,7 +46,7 @@ HOUSES = {
     "backends/imgui": {"app"},
     "CLI/": {"app", "texgen"},
     "tiny_gltf": {"assets", "grass"},
-    "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "lod", "render", "app"},
+    "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "tracks", "lod", "render", "app"},
     "toml++/": {"scene", "texgen"},
 }
 SUFFIXES = {".h", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom"}

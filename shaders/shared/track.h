@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// What has passed through the grass (methods.md C1 to C4): one cell of the continuum, a step of it, and what presses it. The tracks' passes
+// and their C++ twin call the same functions.
+//
+// `theta` is B3's intensity along x and z, so that it adds to what the wind bends: 1 is a tip at 90 degrees. `omega` is its rate (1/s).
+// `pressed` is the slow channel: where broken stems lie, and how much of them (0..1), as a vector along which they lie.
+#ifndef SWARD_SHARED_TRACK_H
+#define SWARD_SHARED_TRACK_H
+#include "shared/bend.h"
+#include "shared/types.h"
+
+SHARED_BEGIN
+
+SHARED_CONST int kTrackCells = 128;         // a side of a page
+SHARED_CONST int kTrackLevels = 6;          // of what is seen of it: 128 to 4 cells a side
+SHARED_CONST int kTrackTexels = 21840;      // of all levels
+SHARED_CONST float kTrackStep_s = 1.0f / 60.0f;
+SHARED_CONST float kMostBend = 1.0f;        // of theta
+SHARED_CONST float kLeastContact_m = 0.03f; // C4's hc is never less: omega stays finite under a wheel
+SHARED_CONST float kMostOmega = 200.0f;     // 1/s
+SHARED_CONST float kMostSwayBend = 0.97f;   // of wind and track together: bend_intensity nears 1 and never comes there
+SHARED_CONST float kLyingBend = 0.93f;      // of stems that lie
+SHARED_CONST float kLyingLoss = 0.6f;       // of their height, beside the bend
+SHARED_CONST float kLyingSheen = 0.45f;      // paler along the pass, darker against it
+
+// What all cells share in a step. 48 bytes.
+struct TrackRules {
+    vec4 grid;  // cell (m); step (s); damping l of C2; restoring term k (1/s^2)
+    vec4 waves; // c0, c_omega (m/s); mu (m); greatest speed of a wave (m/s), inside the stable bound
+    vec4 grass; // canopy (m); share of stems that break under a full load; what is left of a pressed cell's 1 since its count began; unused
+};
+
+// Relative to a page's north-west corner (m). 64 bytes.
+struct TrackPrint {
+    vec4 now;     // x, z; cosine, sine of its yaw, at the step's end
+    vec4 before;  // the same at its start
+    vec4 shape;   // half width (m); half depth, or radius (m); its underside's lowest height over the ground (m); share of its load, 0..1
+    ivec4 kind;   // kPrint*; unused
+};
+SHARED_CONST int kPrintBox = 0;    // its underside is flat
+SHARED_CONST int kPrintSphere = 1; // shape.y: radius
+SHARED_CONST int kPrintWheel = 2;  // rolls along its own z; shape.x: half of its width, shape.y: radius
+
+// A page that is stepped. 48 bytes.
+struct TrackPage {
+    ivec4 slot;   // its own; first print, prints; of a part of the page: its first cell x + 256 z, else unused
+    ivec4 beside; // slots to the west, east, north, south; -1: none
+    vec4 ground;  // its slope dy/dx, dy/dz; unused
+};
+#ifdef __cplusplus
+static_assert(sizeof(TrackRules) == 48 && sizeof(TrackPrint) == 64 && sizeof(TrackPage) == 48);
+#endif
+
+// Where track_at() finds its answer. 48 bytes.
+struct TrackField {
+    vec4 place;  // the anchor in its page x, z (m); 1 / cell (1/m); share of `pressed` that is left
+    ivec4 page;  // page of the anchor x, z; mask of the table of pages, 0 or less: no tracks; unused
+    vec4 bounds; // of all pages, anchor-relative: least x, z, most x, z (m)
+};
+#ifdef __cplusplus
+static_assert(sizeof(TrackField) == 48);
+#endif
+
+struct TrackCell {
+    vec2 theta;
+    vec2 omega;
+    vec2 theta_step; // change in the last step
+    vec2 omega_step;
+};
+
+// Greatest wave speed (m/s) that C2 is stable with: (1 - l/2) on the acceleration makes the paper's damping the central one, whose bound is
+// 8 (c dt / h)^2 + k dt^2 <= 4 for every l in (0, 1]; k = 0: 1 / sqrt(2). A twentieth below it.
+SHARED_FN float track_greatest_wave(float cell_m, float step_s, float k) {
+    return 0.95f * cell_m / step_s * sqrt(max(4.0f - k * step_s * step_s, 0.0f) / 8.0f);
+}
+
+// C2: the next change of theta and omega from a cell and its four neighbours' (theta, omega). As printed, x(t+dt) = (2-l) x(t) - (1-l) x(t-dt)
+// + a dt^2; with a (1 - l/2) waves run at c whatever l is. - k theta is ours.
+SHARED_FN vec4 track_change(TrackRules rules, TrackCell own, vec4 west, vec4 east, vec4 north, vec4 south) {
+    float per_area = 1.0f / (rules.grid.x * rules.grid.x);
+    vec4 sum = west + east + north + south;
+    vec2 lap_theta = per_area * (vec2(sum.x, sum.y) - 4.0f * own.theta);
+    vec2 lap_omega = per_area * (vec2(sum.z, sum.w) - 4.0f * own.omega);
+    float c = min(rules.waves.x + rules.waves.z * length(own.omega), rules.waves.w);
+    float gain = (1.0f - 0.5f * rules.grid.z) * rules.grid.y * rules.grid.y;
+    float kept = 1.0f - rules.grid.z;
+    vec2 theta = kept * own.theta_step + gain * (c * c * lap_theta - rules.grid.w * own.theta);
+    vec2 omega = kept * own.omega_step + gain * (rules.waves.y * rules.waves.y * lap_omega - rules.grid.w * own.omega);
+    return vec4(theta.x, theta.y, omega.x, omega.y);
+}
+
+// The step itself: a cell whose change is known. Nothing leaves the range, nothing stays that is no number.
+SHARED_FN TrackCell track_advance(TrackCell own, vec4 change) {
+    TrackCell next = own;
+    next.theta_step = vec2(change.x, change.y);
+    next.omega_step = vec2(change.z, change.w);
+    next.theta = own.theta + next.theta_step;
+    next.omega = own.omega + next.omega_step;
+    float bend = length(next.theta);
+    float rate = length(next.omega);
+    if (!(bend < 1e3f) || !(rate < 1e6f)) {
+        next.theta = vec2(0.0f, 0.0f);
+        next.omega = vec2(0.0f, 0.0f);
+        next.theta_step = vec2(0.0f, 0.0f);
+        next.omega_step = vec2(0.0f, 0.0f);
+    } else if (bend > kMostBend) {
+        next.theta = next.theta * (kMostBend / bend);
+        next.theta_step = vec2(0.0f, 0.0f);
+    }
+    return next;
+}
+
+// How a print meets a cell in the step.
+struct TrackContact {
+    vec2 way;        // unit, C4's dir
+    float speed;     // of the object along it (m/s)
+    float clearance; // least height of its underside over the cell's ground (m)
+    int touched;
+};
+
+// A place in a print's own frame: x to its right, z behind it.
+SHARED_FN vec2 track_own(vec4 place, vec2 xz) {
+    vec2 from = xz - vec2(place.x, place.y);
+    return vec2(place.z * from.x + place.w * from.y, place.z * from.y - place.w * from.x);
+}
+
+// Part of the way from `from` by `way` inside |x| <= half.x, |y| <= half.y: (first, last) in 0..1; first > last: none.
+SHARED_FN vec2 track_inside(vec2 from, vec2 way, vec2 half_size) {
+    vec2 span = vec2(0.0f, 1.0f);
+    for (int axis = 0; axis < 2; ++axis) {
+        float at = axis == 0 ? from.x : from.y;
+        float run = axis == 0 ? way.x : way.y;
+        float reach = axis == 0 ? half_size.x : half_size.y;
+        if (abs(run) < 1e-7f) {
+            span = abs(at) <= reach ? span : vec2(1.0f, 0.0f);
+        } else {
+            float one = (-reach - at) / run;
+            float two = (reach - at) / run;
+            span = vec2(max(span.x, min(one, two)), min(span.y, max(one, two)));
+        }
+    }
+    return span;
+}
+
+// C4 for one print and the cell around `xz` (from the page's corner). The print is swept by its way within the step: seen from it, the cell
+// runs through its shape. No print is narrower than a cell, or a strip would have gaps.
+SHARED_FN TrackContact track_contact(TrackRules rules, TrackPrint print, vec2 xz) {
+    TrackContact contact;
+    contact.touched = 0;
+    contact.way = vec2(0.0f, 0.0f);
+    contact.speed = 0.0f;
+    contact.clearance = 0.0f;
+    float cell = rules.grid.x;
+    bool ball = print.kind.x == kPrintSphere;
+    vec2 from = track_own(print.before, xz);
+    vec2 run = track_own(print.now, xz) - from;
+    float wide = max(ball ? print.shape.y : print.shape.x, 0.5f * cell);
+    float deep = max(print.shape.y, 0.5f * cell);
+    vec2 span = track_inside(from, run, vec2(wide, deep));
+    if (span.x > span.y) {
+        return contact;
+    }
+    // Where the underside is nearest: straight over the middle, or as near as it comes.
+    float square = max(ball ? dot(run, run) : run.y * run.y, 1e-12f);
+    float nearest = clamp(-(ball ? dot(from, run) : from.y * run.y) / square, span.x, span.y);
+    vec2 own = from + run * nearest;
+    float out_of = ball ? length(own) : print.kind.x == kPrintWheel ? abs(own.y) : 0.0f;
+    if (ball && out_of > wide) {
+        return contact;
+    }
+    float radius = max(print.shape.y, 0.5f * cell);
+    float rise = print.kind.x == kPrintBox ? 0.0f : radius - sqrt(max(radius * radius - out_of * out_of, 0.0f));
+    contact.clearance = max(print.shape.z + rise, 0.0f);
+    if (contact.clearance >= rules.grass.x) {
+        return contact;
+    }
+    // M, T and dir
+    vec2 normal = own / max(length(own), 1e-6f);
+    float to_rim = wide - length(own);
+    if (!ball) {
+        vec2 inside = vec2(wide - abs(own.x), deep - abs(own.y));
+        normal = inside.x < inside.y ? vec2(own.x < 0.0f ? -1.0f : 1.0f, 0.0f) : vec2(0.0f, own.y < 0.0f ? -1.0f : 1.0f);
+        to_rim = min(inside.x, inside.y);
+    }
+    normal = vec2(print.now.z * normal.x - print.now.w * normal.y, print.now.w * normal.x + print.now.z * normal.y);
+    vec2 velocity = vec2(print.now.x - print.before.x, print.now.y - print.before.y) / rules.grid.y;
+    float speed = length(velocity);
+    vec2 ahead = speed > 1e-3f ? velocity / speed : vec2(0.0f, 0.0f);
+    vec2 way = ahead;
+    if (to_rim <= cell && dot(normal, ahead) >= 0.0f) {
+        way = way + normal;
+    }
+    float length_of = length(way);
+    if (length_of < 1e-3f) { // it stands: away from its middle
+        way = normal;
+        length_of = max(length(normal), 1e-6f);
+    }
+    contact.way = way / length_of;
+    contact.speed = max(dot(velocity, contact.way), 0.0f);
+    contact.touched = 1;
+    return contact;
+}
+
+// Bend (B3) that takes a canopy's tip down to a height over the canopy's: sin(x) / x of x = pi/2 I, near enough.
+SHARED_FN float track_needed(float height_share) {
+    return min(0.63662f * sqrt(6.0f * max(1.0f - height_share, 0.0f)), kMostBend);
+}
+
+// Greatest bend toward `way` on a slope (dy/dx, dy/dz): uphill the ground comes up (C1).
+SHARED_FN float track_most(vec2 slope, vec2 way) {
+    return kMostBend * (1.0f - atan(max(dot(slope, way), 0.0f)) * (2.0f / kPi));
+}
+
+// C1 and C4 for a cell that a print touches: omega = dir s cos^2(theta) / hc, theta += |omega| dt. Whatever the speed, the grass ends under
+// the object: that is what a strip's width follows from. Held, it does not move by itself.
+SHARED_FN TrackCell track_bent(TrackRules rules, TrackCell own, TrackContact contact, vec2 slope) {
+    TrackCell next = own;
+    float upright = cos(0.5f * kPi * min(length(own.theta), 1.0f));
+    float rate = contact.speed * upright * upright / max(contact.clearance, kLeastContact_m) * (2.0f / kPi);
+    next.omega = contact.way * min(rate, kMostOmega);
+    next.theta = own.theta + next.omega * rules.grid.y;
+    float along = dot(next.theta, contact.way);
+    float needed = track_needed(contact.clearance / rules.grass.x);
+    next.theta = next.theta + contact.way * max(needed - along, 0.0f);
+    float most = track_most(slope, next.theta / max(length(next.theta), 1e-6f));
+    next.theta = next.theta * min(1.0f, most / max(length(next.theta), 1e-6f));
+    next.theta_step = vec2(0.0f, 0.0f);
+    next.omega_step = vec2(0.0f, 0.0f);
+    return next;
+}
+
+// The slow channel under a print: by its load and height alone, so that speed leaves no mark in it. Counted in units of rules.grass.z.
+SHARED_FN vec2 track_pressed(TrackRules rules, vec2 pressed, TrackContact contact, float load) {
+    float depth = 1.0f - contact.clearance / rules.grass.x;
+    float now = rules.grass.y * load * smoothstep(0.25f, 0.9f, depth) / rules.grass.z;
+    float there = length(pressed);
+    if (now <= 0.5f * there) { // brushed: those that lie stay
+        return pressed;
+    }
+    return contact.way * max(now, there);
+}
+
+// What is left of `pressed` after a time, as stems rise in their own: 1/e after `lasting`.
+SHARED_FN float track_left(float seconds, float lasting_s) {
+    return exp(-seconds / lasting_s);
+}
+
+// Wind (m/s) that bends by an intensity: bend_intensity's inverse.
+SHARED_FN float bend_speed(float intensity, float response) {
+    float left = 1.0f - clamp(intensity, 0.0f, kMostSwayBend);
+    return sqrt(max(pow(left, -1.5f) - 1.0f, 0.0f)) / response;
+}
+
+// Wind and track as one: the wind that would bend the grass so. The bends add; grass that lies is out of the wind.
+SHARED_FN vec2 sway_wind(vec2 wind, float response, vec2 theta, vec2 pressed) {
+    float lying = min(length(pressed), 1.0f);
+    float bent = length(theta);
+    if (lying + bent < 1e-3f || response <= 0.0f) {
+        return wind;
+    }
+    float speed = length(wind);
+    vec2 blown = speed > 1e-4f ? wind * (bend_intensity(speed, response) / speed) : vec2(0.0f, 0.0f);
+    vec2 sum = blown * (1.0f - 0.85f * lying) + theta * (1.0f - 0.5f * lying) + pressed * (kLyingBend * min(1.0f, 1.0f / max(length(pressed), 1e-6f)));
+    float all = length(sum);
+    if (all < 1e-5f) {
+        return vec2(0.0f, 0.0f);
+    }
+    return sum * (bend_speed(all, response) / all);
+}
+
+// Factor on every height where stems lie: bent as far as B3 goes a canopy still keeps two thirds of its height.
+SHARED_FN float lying_height(vec2 pressed) {
+    return 1.0f - kLyingLoss * min(length(pressed), 1.0f);
+}
+
+// Light that comes back from grass that lies: stems that lie away from the eye show their whole length, paler; toward it their tips and the
+// gaps behind them, darker. Seen from straight above there is no along.
+SHARED_FN float lying_light(vec2 pressed, vec3 to_eye) {
+    float lying = length(pressed);
+    vec2 along = pressed * (min(lying, 1.0f) / max(lying, 1e-6f));
+    return 1.0f - kLyingSheen * dot(along, vec2(to_eye.x, to_eye.z));
+}
+
+// The four cells around a place of a level, and the place among them. `cells`: from the anchor page's north-west corner.
+SHARED_FN vec2 track_level_place(TrackField field, vec2 xz, int level) {
+    return (vec2(field.place.x, field.place.y) + xz) * (field.place.z * exp2(-float(level))) - vec2(0.5f, 0.5f);
+}
+
+// First texel of a level within a page: 128^2, 64^2, ...
+SHARED_FN int track_level_first(int level) {
+    int first = 0;
+    for (int l = 0; l < level; ++l) {
+        first += (kTrackCells >> l) * (kTrackCells >> l);
+    }
+    return first;
+}
+
+// Where the table of pages is looked into first.
+SHARED_FN int track_hash(ivec2 page) {
+    return int((uint(page.x) * 73856093u ^ uint(page.y) * 19349663u) & 0x7fffffffu);
+}
+
+SHARED_END
+#endif
