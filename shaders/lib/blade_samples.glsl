@@ -9,7 +9,7 @@ layout(std140, binding = BIND_SAMPLES) uniform SampleBlock {
 };
 #ifdef BEFORE_SCENE
 layout(binding = TEX_RESOLVE_DEPTH) uniform sampler2DMS scene_depth;
-float nearest_depth; // of the blade in the test
+float nearest_depth = 0.0; // of the blade in the test
 int pictures() { return 1; } // its own constants hold what it is moved by, and the round's first one is moved by nothing
 #else
 int pictures() { return round.counts.x; }
