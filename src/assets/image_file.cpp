@@ -9,12 +9,11 @@
 #include <string>
 #include <utility>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
 #include "assets/ascii_grid.h"
 #include "assets/assets.h"
+#include "assets/exr_input.h"
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -115,67 +114,31 @@ Format format_of(std::span<const std::byte> head) {
 }
 
 Channel read_exr_channel(const std::filesystem::path& path, const ChannelRequest& request) {
-    // From memory: the library sees no path, so no other file and no FIFO.
-    const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const auto input = OIIO::ImageInput::create("openexr");
-    if (!input)
-        throw base::Error(ExitCode::kFailure,
-                          "OpenImageIO has no reader for EXR: " + OIIO::geterror());
-    OIIO::ImageSpec config, spec;
-    void* proxy = &memory;
-    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const auto decode_error = [&] {
-        const std::string error = input->geterror() + OIIO::geterror();
-        return bad(path, "cannot decode", error.empty() ? "broken data" : error, "a whole picture");
-    };
-    if (!input->open("memory.exr", spec, config))
-        throw decode_error();
-    check_spec(path, spec, bytes.size(), 1);
-    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
-    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
+    ExrInput input(path);
+    const OIIO::ImageSpec& spec = input.spec();
+    check_spec(path, spec, input.file_bytes(), 1);
     const int band = std::max(request.band, 1) - 1;
     if (band >= spec.nchannels)
         throw bad(path, "channels", std::to_string(spec.nchannels), fmt::format("a channel {}", band + 1));
     if (request.band == 0 && spec.nchannels > 1 && spec.alpha_channel != 1)
         base::log_warning(fmt::format("{}: {} channels; the first is used", path.string(), spec.nchannels));
     std::vector<float> data(std::size_t(spec.width) * std::size_t(spec.height));
-    if (!input->read_image(0, 0, band, band + 1, OIIO::TypeDesc::FLOAT, data.data()))
-        throw decode_error();
-    if (input->seek_subimage(1, 0))
+    input.read(band, band + 1, data.data());
+    if (input.has_more())
         base::log_warning(path.string() + ": holds several pictures; the first is used");
-    [[maybe_unused]] const std::string no_more =
-        input->geterror(); // what is never asked for is printed
-    return in_display_window(path, spec, bytes.size(), request.least_side, data);
+    return in_display_window(path, spec, input.file_bytes(), request.least_side, data);
 }
 
 scene::Image read_exr(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
-    if (format_of(bytes) != Format::kExr)
-        throw bad(path, "format", "another in its first bytes", "EXR");
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const auto input = OIIO::ImageInput::create("openexr");
-    if (!input)
-        throw base::Error(ExitCode::kFailure, "OpenImageIO has no reader for EXR: " + OIIO::geterror());
-    OIIO::ImageSpec config, spec;
-    void* proxy = &memory;
-    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const auto decode_error = [&] {
-        const std::string error = input->geterror() + OIIO::geterror();
-        return bad(path, "cannot decode", error.empty() ? "broken data" : error, "a whole picture");
-    };
-    if (!input->open("memory.exr", spec, config))
-        throw decode_error();
-    check_spec(path, spec, bytes.size(), 1);
-    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
-    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
+    ExrInput input(path);
+    const OIIO::ImageSpec& spec = input.spec();
+    check_spec(path, spec, input.file_bytes(), 1);
     scene::Image image;
     image.width = spec.width;
     image.height = spec.height;
     image.channels = spec.channelnames;
     image.texels.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.texels.data()))
-        throw decode_error();
+    input.read(0, spec.nchannels, image.texels.data());
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
         if (attribute.type() == OIIO::TypeDesc::STRING)
             image.metadata[attribute.name().string()] = attribute.get_string();

@@ -6,10 +6,9 @@
 #include <cmath>
 #include <span>
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
+#include "assets/exr_input.h"
 #include "assets/gdal_scope.h"
 #include "assets/limits.h"
 #include "base/error.h"
@@ -27,29 +26,15 @@ base::Error bad(const std::filesystem::path& path, std::string_view what, std::s
 }
 
 LayerImage read_exr(const std::filesystem::path& path) {
-    const std::vector<std::byte> bytes = base::read_file(path, kMostFileBytes);
-    OIIO::Filesystem::IOMemReader memory(bytes.data(), bytes.size());
-    const auto input = OIIO::ImageInput::create("openexr");
-    if (!input)
-        throw base::Error(ExitCode::kFailure, "OpenImageIO has no reader for EXR: " + OIIO::geterror());
-    OIIO::ImageSpec config, spec;
-    void* proxy = &memory;
-    config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
-    const auto decode_error = [&] {
-        const std::string error = input->geterror() + OIIO::geterror();
-        return bad(path, "cannot decode", error.empty() ? "broken data" : error, "a whole picture");
-    };
-    if (!input->open("memory.exr", spec, config))
-        throw decode_error();
-    check_size(path, spec.width, spec.height, spec.nchannels, spec.pixel_bytes(true), bytes.size(), 1);
+    ExrInput input(path);
+    const OIIO::ImageSpec& spec = input.spec();
+    check_size(path, spec.width, spec.height, spec.nchannels, spec.pixel_bytes(true), input.file_bytes(), 1);
     if (spec.depth > 1 || spec.deep)
         throw bad(path, "kind of picture", spec.deep ? "deep samples" : "a volume", "a flat picture");
     if (spec.tile_width > std::max(spec.width, 2048) || spec.tile_height > std::max(spec.height, 2048))
         throw base::input_error(ExitCode::kOverLimit, path, 0, "tile",
                                 fmt::format("{} x {}", spec.tile_width, spec.tile_height),
                                 "no more than the picture");
-    const OIIO::ParamValue* rows = spec.find_attribute("tiff:RowsPerStrip");
-    check_rows_per_strip(path, rows ? std::optional(rows->get_int()) : std::nullopt);
     LayerImage image;
     image.width = spec.width;
     image.height = spec.height;
@@ -58,11 +43,9 @@ LayerImage read_exr(const std::filesystem::path& path) {
     image.names = spec.channelnames;
     image.type = spec.format == OIIO::TypeDesc::HALF ? Type::kHalf : Type::kFloat;
     image.values.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
-    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.values.data()))
-        throw decode_error();
-    if (input->seek_subimage(1, 0))
+    input.read(0, spec.nchannels, image.values.data());
+    if (input.has_more())
         throw bad(path, "pictures", "several in one file", "one");
-    [[maybe_unused]] const std::string no_more = input->geterror(); // what is never asked for is printed
     return image;
 }
 
