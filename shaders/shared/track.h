@@ -142,61 +142,76 @@ SHARED_FN vec2 track_inside(vec2 from, vec2 way, vec2 half_size) {
     return span;
 }
 
+// Half sizes of a print to its right and behind it. None is narrower than a cell, or a strip would have gaps.
+SHARED_FN vec2 track_half_size(TrackRules rules, TrackPrint print) {
+    float wide = print.kind.x == kPrintSphere ? print.shape.y : print.shape.x;
+    return max(vec2(wide, print.shape.y), vec2(0.5f * rules.grid.x, 0.5f * rules.grid.x));
+}
+
+// Height of a print's underside over the ground at a place `own` in its frame, over that under its middle (m); negative: the place is not under it.
+SHARED_FN float track_rise(TrackPrint print, vec2 own, vec2 half_size) {
+    if (print.kind.x == kPrintBox) {
+        return 0.0f;
+    }
+    float out_of = print.kind.x == kPrintSphere ? length(own) : abs(own.y);
+    float square = half_size.y * half_size.y - out_of * out_of;
+    return print.kind.x == kPrintSphere && out_of > half_size.x ? -1.0f : half_size.y - sqrt(max(square, 0.0f));
+}
+
+// M of C4 in a print's own frame: outward normal of the rim that is nearest; z: distance to that rim (m).
+SHARED_FN vec3 track_rim(TrackPrint print, vec2 own, vec2 half_size) {
+    if (print.kind.x == kPrintSphere) {
+        float from_middle = length(own);
+        return vec3(own.x / max(from_middle, 1e-6f), own.y / max(from_middle, 1e-6f), half_size.x - from_middle);
+    }
+    vec2 inside = vec2(half_size.x - abs(own.x), half_size.y - abs(own.y));
+    return inside.x < inside.y ? vec3(own.x < 0.0f ? -1.0f : 1.0f, 0.0f, inside.x) : vec3(0.0f, own.y < 0.0f ? -1.0f : 1.0f, inside.y);
+}
+
+// C4's dir, and the object's speed along it (m/s): M + T on the rim that goes ahead, else T; of what stands, away from its middle.
+SHARED_FN vec3 track_way(TrackRules rules, TrackPrint print, vec3 rim) {
+    vec2 normal = vec2(print.now.z * rim.x - print.now.w * rim.y, print.now.w * rim.x + print.now.z * rim.y);
+    vec2 velocity = vec2(print.now.x - print.before.x, print.now.y - print.before.y) / rules.grid.y;
+    float speed = length(velocity);
+    vec2 ahead = speed > 1e-3f ? velocity / speed : vec2(0.0f, 0.0f);
+    vec2 way = rim.z <= rules.grid.x && dot(normal, ahead) >= 0.0f ? ahead + normal : ahead;
+    float length_of = length(way);
+    if (length_of < 1e-3f) {
+        way = normal;
+        length_of = max(length(normal), 1e-6f);
+    }
+    way = way / length_of;
+    return vec3(way.x, way.y, max(dot(velocity, way), 0.0f));
+}
+
 // C4 for one print and the cell around `xz` (from the page's corner). The print is swept by its way within the step: seen from it, the cell
-// runs through its shape. No print is narrower than a cell, or a strip would have gaps.
+// runs through its shape.
 SHARED_FN TrackContact track_contact(TrackRules rules, TrackPrint print, vec2 xz) {
     TrackContact contact;
     contact.touched = 0;
     contact.way = vec2(0.0f, 0.0f);
     contact.speed = 0.0f;
     contact.clearance = 0.0f;
-    float cell = rules.grid.x;
-    bool ball = print.kind.x == kPrintSphere;
+    vec2 half_size = track_half_size(rules, print);
     vec2 from = track_own(print.before, xz);
     vec2 run = track_own(print.now, xz) - from;
-    float wide = max(ball ? print.shape.y : print.shape.x, 0.5f * cell);
-    float deep = max(print.shape.y, 0.5f * cell);
-    vec2 span = track_inside(from, run, vec2(wide, deep));
+    vec2 span = track_inside(from, run, half_size);
     if (span.x > span.y) {
         return contact;
     }
     // Where the underside is nearest: straight over the middle, or as near as it comes.
+    bool ball = print.kind.x == kPrintSphere;
     float square = max(ball ? dot(run, run) : run.y * run.y, 1e-12f);
     float nearest = clamp(-(ball ? dot(from, run) : from.y * run.y) / square, span.x, span.y);
     vec2 own = from + run * nearest;
-    float out_of = ball ? length(own) : print.kind.x == kPrintWheel ? abs(own.y) : 0.0f;
-    if (ball && out_of > wide) {
-        return contact;
-    }
-    float radius = max(print.shape.y, 0.5f * cell);
-    float rise = print.kind.x == kPrintBox ? 0.0f : radius - sqrt(max(radius * radius - out_of * out_of, 0.0f));
+    float rise = track_rise(print, own, half_size);
     contact.clearance = max(print.shape.z + rise, 0.0f);
-    if (contact.clearance >= rules.grass.x) {
+    if (rise < 0.0f || contact.clearance >= rules.grass.x) {
         return contact;
     }
-    // M, T and dir
-    vec2 normal = own / max(length(own), 1e-6f);
-    float to_rim = wide - length(own);
-    if (!ball) {
-        vec2 inside = vec2(wide - abs(own.x), deep - abs(own.y));
-        normal = inside.x < inside.y ? vec2(own.x < 0.0f ? -1.0f : 1.0f, 0.0f) : vec2(0.0f, own.y < 0.0f ? -1.0f : 1.0f);
-        to_rim = min(inside.x, inside.y);
-    }
-    normal = vec2(print.now.z * normal.x - print.now.w * normal.y, print.now.w * normal.x + print.now.z * normal.y);
-    vec2 velocity = vec2(print.now.x - print.before.x, print.now.y - print.before.y) / rules.grid.y;
-    float speed = length(velocity);
-    vec2 ahead = speed > 1e-3f ? velocity / speed : vec2(0.0f, 0.0f);
-    vec2 way = ahead;
-    if (to_rim <= cell && dot(normal, ahead) >= 0.0f) {
-        way = way + normal;
-    }
-    float length_of = length(way);
-    if (length_of < 1e-3f) { // it stands: away from its middle
-        way = normal;
-        length_of = max(length(normal), 1e-6f);
-    }
-    contact.way = way / length_of;
-    contact.speed = max(dot(velocity, contact.way), 0.0f);
+    vec3 way = track_way(rules, print, track_rim(print, own, half_size));
+    contact.way = vec2(way.x, way.y);
+    contact.speed = way.z;
     contact.touched = 1;
     return contact;
 }
