@@ -291,7 +291,7 @@ void report_factors(const std::vector<std::array<double, kMips.size()>>& found) 
 } // namespace
 
 std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads) {
-    const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 40);
+    const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 10);
     constexpr std::size_t kKinds = shared::kMarchSets + 1, kElevations = kElevationsDeg.size();
     constexpr std::size_t kDensities = grass::kMarchDensities.size();
     // [depth, light][density][elevation][kind][mip]

@@ -26,8 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 using base::ExitCode;
 
+constexpr int kRays = 16384; // 0.4 points
+
 ImportQuery small_query() {
-    return {.name = "imported", .layers = 8, .slices = 8, .levels = 3, .threads = 2};
+    return {.name = "imported", .layers = 8, .slices = 8, .levels = 3, .far_rays = kRays, .threads = 2};
 }
 
 /// volume.vdb of the small set, through the file and back.
@@ -53,7 +55,7 @@ grass::GrassSet first_variant(const grass::GrassSet& set) {
     for (const grass::Species& species : set.species)
         patch.looks.push_back(species.look);
     grass::GrassSet out;
-    out.far = far_table(blade_canopy(patch, set.canopy_m), kFarRays, 2).rows;
+    out.far = far_table(blade_canopy(patch, set.canopy_m), kRays, 2).rows;
     return out;
 }
 
@@ -67,7 +69,7 @@ TEST(Import, OwnVolumeCoversWhatItsBladesDo) {
         EXPECT_NEAR(row.height * set.canopy_m, blades[i].height * small_set().canopy_m, 0.015) << blades[i].elevation_deg << " degrees";
         if (row.elevation_deg < 5)
             continue;
-        const double flat = flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, 32768).coverage;
+        const double flat = flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, kRays).coverage;
         EXPECT_NEAR(flat, blades[i].coverage, 0.03) << blades[i].elevation_deg << " degrees, textures";
         std::printf("%5.1f: blades %.3f, voxels %.3f, textures %.3f\n", row.elevation_deg, blades[i].coverage, row.coverage, flat);
     }
