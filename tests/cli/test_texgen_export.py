@@ -369,7 +369,7 @@ class Tool(ExportCase):
         self.refuse_export(3, ["volume.vdb", "SHA-256"], "set", "-o", "out", "--for", "blender", "-q")
 
     def test_far_only(self):
-        self.assert_done(self.texgen("import", "set/volume.vdb", "-o", "far", "--size", "32", "--layers", "2", "--slices", "2", "--levels", "1", *FAST,
+        self.assert_done(self.texgen("import", "set/volume.vdb", "-o", "far", "--size", "32", "--layers", "2", "--slices", "2", "--levels", "1", "--far-rays", "1024", *FAST,
                                     timeout=600))
         self.refuse_export(3, ["far", "blades", "none"], "far", "-o", "out", "--for", "gltf")
         self.refuse_export(3, ["far", "blades", "none"], "far", "-o", "out", "--for", "blender")
