@@ -210,6 +210,8 @@ class Textures(ExportCase):
 
     def test_formats(self):
         """Albedo is flagged sRGB and tangents are not; arrays have all mips, atlases are single textures."""
+        for found, wanted in zip((self.stack["floor"]["cover"], *self.stack["floor"]["moss"]), (0.7, 0.05, 0.078, 0.02), strict=True):
+            self.assertAlmostEqual(found, wanted, delta=1e-6)
         for name, images in (("layers", 2 * 4), ("slices", 2 * 2 * 4)):
             for kind, fmt, transfer in (("albedo", SRGB, 2), ("tangent", UNORM, 1)):
                 found, layers, mips, flag = ktx2(self.files[f"{kind}_{name}.ktx2"])
