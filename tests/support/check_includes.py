@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets"},
+    "app": {"render", "assets", "feed"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
@@ -24,6 +24,7 @@ ARROWS = {
     "grass": {"base"},
     "scene": {"base"},
     "gl": {"base"},
+    "feed": {"scene"},
     "assets": {"scene"},
     "texgen": {"grass", "assets"},
     "base": set(),
