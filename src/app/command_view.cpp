@@ -189,6 +189,7 @@ private:
 void run_view(const Options& options) {
     const scene::Scene scene = load_scene(options);
     scene::Pose start = find_camera(scene, options.camera); // a wrong name is told before the window opens
+    const FeedLinks links = open_feed(options);   // a port in use likewise
     gl::DebugMessages messages;
     Window window("Sward", options.frame.width, options.frame.height, options.debug_gl);
     gl::require_gl45();
@@ -198,7 +199,7 @@ void run_view(const Options& options) {
     world.far = options.frame.far;
     const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
     scene::settle_place(start, on_earth, "--camera");
-    const std::unique_ptr<PoseSource> source = make_pose_source(options, on_earth);
+    const std::unique_ptr<PoseSource> source = make_pose_source(options, {links, on_earth, links.out ? grass_share_of(world) : GrassShare()});
     Field field = render::Access::field_of(std::move(world));
     window.show();
     {

@@ -2,6 +2,7 @@
 #include "app/io.h"
 
 #include "assets/assets.h"
+#include "assets/place_finder.h"
 
 namespace sward::app {
 

@@ -29,8 +29,6 @@ namespace sward::assets {
 
 /// x, z in a frame of latitude and longitude (degrees, WGS 84). Throws Error(kBadInput) where they have no place in it.
 [[nodiscard]] glm::dvec2 local_place(const scene::Georeference& frame, double latitude_deg, double longitude_deg);
-/// The same for many places, a few microseconds each: for what moves.
-[[nodiscard]] scene::PlaceOnEarth place_finder(const scene::Georeference& frame);
 
 /// Triangles of a .glb or .gltf, of every node of its default scene, placed by its transforms; pictures, materials, skins and
 /// morphs are left alone. External buffers are read from the glTF's directory and below it only. Throws Error: kIo missing or

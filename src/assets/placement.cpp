@@ -16,6 +16,7 @@
 
 #include "assets/assets.h"
 #include "assets/gdal_scope.h"
+#include "assets/place_finder.h"
 #include "base/error.h"
 #include "base/room.h"
 

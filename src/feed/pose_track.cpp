@@ -183,6 +183,10 @@ std::optional<FeedPose> PoseTrack::pose(double now_s) const {
     return pose;
 }
 
+std::optional<FeedPose> PoseTrack::said() const {
+    return pose(newest_ ? newest_->arrival_s : 0);
+}
+
 Stream PoseTrack::stream(double now_s) const {
     if (!newest_)
         return Stream::kWaiting;

@@ -58,6 +58,8 @@ public:
 
     /// The pose carried on to `now_s`; nothing before the first packet.
     [[nodiscard]] std::optional<FeedPose> pose(double now_s) const;
+    /// The pose as the packet has it.
+    [[nodiscard]] std::optional<FeedPose> said() const;
     [[nodiscard]] Stream stream(double now_s) const;
     /// For how long the pose has said nothing new.
     [[nodiscard]] double age_s(double now_s) const;
