@@ -11,6 +11,7 @@
 #include "app/capture.h"
 #include "app/commands.h"
 #include "app/io.h"
+#include "app/joystick_list.h"
 #include "app/panel.h"
 #include "app/pose_source.h"
 #include "app/poses.h"
@@ -187,6 +188,8 @@ private:
 } // namespace
 
 void run_view(const Options& options) {
+    if (options.list_joysticks)
+        return list_joysticks();
     const scene::Scene scene = load_scene(options);
     scene::Pose start = find_camera(scene, options.camera); // a wrong name is told before the window opens
     const FeedLinks links = open_feed(options);   // a port in use likewise

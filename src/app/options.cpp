@@ -214,6 +214,7 @@ void declare_view(CLI::App& app, Options* o) {
                 if (o->udp_out->host.empty() || o->udp_out->port == 0)
                     throw option_error("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
             });
+    app.add_flag("--list-joysticks", o->list_joysticks, "prints what is plugged in and what controls.toml does with it, and ends");
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
         o->exit_after = static_cast<int>(parse_integer("--frames", text, kExitAfter));

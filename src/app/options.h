@@ -64,6 +64,7 @@ struct Options {
     // view
     std::optional<feed::Endpoint> native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
     std::optional<feed::Endpoint> udp_out;    ///< whom to tell what lies under it
+    bool list_joysticks = false;              ///< in the place of a window
     int exit_after = 0; ///< frames; 0: until it is closed
 };
 

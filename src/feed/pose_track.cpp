@@ -99,7 +99,7 @@ Packet PoseTrack::judge(std::span<const std::byte> packet, std::string_view send
         return Packet::kForeign;
     if (running && fix.digest == newest_->digest) {
         heard_s_ = arrival_s;
-        held_ = held_ || arrival_s - newest_->arrival_s > kExtrapolated_s;
+        held_ = held_ || arrival_s - newest_->arrival_s > kHeld_s;
         return Packet::kDoubled;
     }
     if (!settle(fix))

@@ -19,6 +19,7 @@ namespace sward::feed {
 
 inline constexpr double kExtrapolated_s = 0.1; ///< that a pose is carried on after its packet came, at most
 inline constexpr double kSilence_s = 0.5;      ///< after which a stream stands, and another may begin
+inline constexpr double kHeld_s = 0.25;        ///< after which a packet that comes again means that the aircraft stands there
 
 /// An aircraft in the scene's world: metres, y above the datum; yaw 0 looks along -z; roll positive lowers the right wing.
 struct FeedPose {
@@ -53,7 +54,7 @@ public:
     explicit PoseTrack(scene::PlaceOnEarth on_earth);
 
     /// Takes a packet that came from `sender` (any name of it) at `arrival_s`. All but kTaken leave the pose as it is, but for a
-    /// kDoubled later than kExtrapolated_s: the sender stands there, so the pose goes back to where it says.
+    /// kDoubled later than kHeld_s: the sender stands there, so the pose goes back to where it says.
     Packet take(std::span<const std::byte> packet, std::string_view sender, double arrival_s);
 
     /// The pose carried on to `now_s`; nothing before the first packet.

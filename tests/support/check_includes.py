@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets", "feed"},
+    "app": {"render", "assets", "feed", "input"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
@@ -25,6 +25,7 @@ ARROWS = {
     "scene": {"base"},
     "gl": {"base"},
     "feed": {"scene"},
+    "input": {"scene"},
     "assets": {"scene"},
     "texgen": {"grass", "assets"},
     "base": set(),

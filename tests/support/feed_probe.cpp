@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the feed makes of packets, as text: feed_probe ELEVATION [POLLS_A_SECOND]. Prints "port N", then for each packet that it takes
-// "said TIME x y z yaw pitch roll" (TIME: the sender's), and at each poll after the first of them "drawn CLOCK x y z yaw pitch roll" (CLOCK: the
+// "said TIME x y z yaw pitch roll" (TIME: the sender's), "ahead ..." the same carried on by a tenth of a second, and at each poll after the first of them "drawn CLOCK x y z yaw pitch roll" (CLOCK: the
 // monotonic one, s). Ends a second after the last packet with "counts TAKEN REFUSED".
 #include <chrono>
 #include <cstdio>
@@ -37,8 +37,11 @@ void run(const std::string& elevation, double polls) {
     while (track.sample() ? track.age_s(clock_s()) < 1 : clock_s() - begun < 60) {
         const double now = clock_s();
         receiver.receive([&](const sward::feed::Datagram& datagram) {
-            if (track.take(datagram.bytes, datagram.sender, now - datagram.age_s) == sward::feed::Packet::kTaken)
-                print("said", track.sample()->time, *track.said());
+            const double arrival = now - datagram.age_s;
+            if (track.take(datagram.bytes, datagram.sender, arrival) != sward::feed::Packet::kTaken)
+                return;
+            print("said", track.sample()->time, *track.said());
+            print("ahead", track.sample()->time, *track.pose(arrival + sward::feed::kExtrapolated_s));
         });
         if (polls > 0 && track.sample())
             print("drawn", now, *track.pose(now));

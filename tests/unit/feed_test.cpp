@@ -247,6 +247,18 @@ TEST(PoseTrack, AnAircraftMayStandBeMovedAndTurnBack) {
     EXPECT_LT(glm::length(track.pose(2.05 + 119 / 60.0)->position - glm::dvec3(0, 300, 5120)), 1e-6);
 }
 
+TEST(PoseTrack, ASenderThatRepeatsItsStateIsNotPulledBack) {
+    PoseTrack track(flat_earth());
+    double before = 1;
+    for (int i = 0; i < 80; ++i) { // 60 packets a second of a model that steps 7.5 times
+        const double now = i / 60.0;
+        EXPECT_EQ(track.take(packet_of(flight_at(i / 8 * 8)), "a", now), i % 8 == 0 ? Packet::kTaken : Packet::kDoubled);
+        const double z = track.pose(now)->position.z;
+        EXPECT_LE(z, before) << i;
+        before = z;
+    }
+}
+
 TEST(PoseTrack, AfterASilenceAnythingMayBegin) {
     PoseTrack track(flat_earth());
     for (int i = 0; i < 10; ++i)
