@@ -5,13 +5,15 @@ import re
 import signal
 import socket
 import struct
+import subprocess
 import threading
 
 import sward_cli
 import test_view
 from geotiff import geotiff
-from sward_cli import CliCase
+from sward_cli import CliCase, environment
 
+WIDTH, HEIGHT = 192, 108
 SCENE = """\
 [terrain]
 elevation = "height.tif"
@@ -52,12 +54,27 @@ def udp_sockets(process):
 
 
 class Feed(CliCase):
-    view, wait_for = test_view.View.view, test_view.View.wait_for
+    def wait_for(self, what, child):
+        test_view.View.wait_for(self, what, child, seconds=600)  # a busy machine builds shaders for minutes
 
     def setUp(self):
-        test_view.View.setUp(self)
+        super().setUp()
+        self.scene()
         # 640 m of UTM zone 32 at 50 degrees north, rising 5 % to the east.
         geotiff(self.dir / "height.tif", 65, 65, lambda i, j: 100 + 0.5 * i, epsg=32632, affine=(10, 0, 500000, 0, -10, 5540000))
+        screen = self.dir / "screen"
+        screen.mkdir()
+        self.display = test_view.Display(screen)
+        self.addCleanup(self.display.close)
+        self.env = environment(DISPLAY=self.display.name, EGL_PLATFORM=None)
+
+    def view(self, *arguments):
+        child = subprocess.Popen(
+            [str(sward_cli.BIN / "sward"), "view", "scene.toml", "--size", f"{WIDTH}x{HEIGHT}", "--samples", "1", "--tiers", "blades", "--blades-distance", "1", "--density", "0", *arguments],
+            cwd=self.dir, env=self.env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(child.communicate)
+        self.addCleanup(child.kill)
+        return child
 
     def origin(self):
         (self.dir / "scene.toml").write_text(SCENE)
@@ -70,10 +87,11 @@ class Feed(CliCase):
         answers = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.addCleanup(answers.close)
         answers.bind(("127.0.0.1", 0))
-        answers.settimeout(60)
-        child = self.view("--native-fdm", "udp:0", "--udp-out", f"udp:127.0.0.1:{answers.getsockname()[1]}", "--samples", "1")
-        said = []
-        threading.Thread(target=lambda: said.extend(iter(child.stderr.readline, "")), daemon=True).start()
+        answers.settimeout(600)
+        child = self.view("--native-fdm", "udp:0", "--udp-out", f"udp:127.0.0.1:{answers.getsockname()[1]}")
+        said, printed = [], []
+        for lines, stream in ((said, child.stderr), (printed, child.stdout)):
+            threading.Thread(target=lambda lines=lines, stream=stream: lines.extend(iter(stream.readline, "")), daemon=True).start()
         heard = lambda text: self.wait_for(lambda: any(text in line for line in said), child)
         heard("listening on udp:127.0.0.1:")
         port = int(re.search(r"127\.0\.0\.1:(\d+)", said[0]).group(1))
@@ -125,16 +143,17 @@ class Feed(CliCase):
         self.display.tap(window, "t")
         self.wait_for(lambda: not self.display.has_panel(), child)
         # The right wing is down: the horizon stands higher on the right, so there is less sky.
-        blue = [self.display.pixels()[i::test_view.WIDTH] for i in (20, test_view.WIDTH - 20)]
-        sky = [sum((p & 255) > (p >> 8 & 255) for p in column) for column in blue]
-        self.assertGreater(sky[0], sky[1] + test_view.HEIGHT // 5, sky)
+        pixels = self.display.pixels()
+        columns = [[pixels[row * test_view.WIDTH + i] for row in range(HEIGHT)] for i in (10, WIDTH - 10)]
+        sky = [sum((p & 255) > (p >> 8 & 255) for p in column) for column in columns]
+        self.assertGreater(sky[0], sky[1] + HEIGHT // 5, sky)
         self.display.tap(window, "k")
+        self.wait_for(lambda: printed, child)
         stop.set()
         heard("the stream stands: no packet")
         child.send_signal(signal.SIGTERM)
-        out = child.communicate(timeout=30)[0]
-        self.assertEqual(child.returncode, 143, said)
-        pose = [float(n) for n in test_view.POSE.search(out).group().split(",")]
+        self.assertEqual(child.wait(timeout=60), 143, said)
+        pose = [float(n) for n in printed[0].split(",")]
         self.assertLess(math.hypot(pose[0], pose[2] + 100), 1)
         self.assertAlmostEqual(pose[1], 180 - ground, delta=0.05)
         self.assertAlmostEqual(pose[3], 45, delta=0.05)
@@ -142,7 +161,7 @@ class Feed(CliCase):
         self.assertFalse([line for line in said if line.startswith("error")], said)
 
     def test_nothing_is_open_unless_asked_for(self):
-        child = self.view("--samples", "1")
+        child = self.view()
         self.wait_for(self.display.has_panel, child)
         self.assertEqual(udp_sockets(child.pid), [])
         child.send_signal(signal.SIGTERM)
