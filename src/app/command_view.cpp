@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <memory>
 
 #include <fmt/format.h>
 #include <imgui.h>
@@ -10,8 +11,9 @@
 #include "app/capture.h"
 #include "app/commands.h"
 #include "app/io.h"
-#include "app/controls.h"
+#include "app/joystick_list.h"
 #include "app/panel.h"
+#include "app/pose_source.h"
 #include "app/poses.h"
 #include "app/window.h"
 #include "app/world_loader.h"
@@ -35,9 +37,9 @@ constexpr int kLargestSide = 16384;
 class Flight {
 public:
     Flight(const Options& options, const scene::Scene& scene, const scene::Pose& start, Window& window,
-           Field& field)
-        : options_(options), window_(window), field_(field), view_(field), panel_(window.handle()),
-          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_(above_datum(start)),
+           Field& field, PoseSource& source)
+        : options_(options), window_(window), field_(field), source_(source), view_(field), panel_(window.handle()),
+          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_{above_datum(start)},
           gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
 
     /// Draws until the window is closed, or for options.exit_after frames.
@@ -64,7 +66,7 @@ public:
 
 private:
     [[nodiscard]] double ground() const {
-        return field_.ground_height(pose_.position.x, pose_.position.z);
+        return field_.ground_height(pose_.pose.position.x, pose_.pose.position.z);
     }
     [[nodiscard]] scene::Pose above_datum(scene::Pose pose) const {
         if (pose.agl)
@@ -78,12 +80,11 @@ private:
         const double elapsed = std::chrono::duration<double>(now - last_).count();
         last_ = now;
         frame_ms_ = elapsed * 1000;
-        const double dt =
+        const double real =
             options_.fixed_step ? options_.step_s : std::clamp(elapsed, 0.0, kLongestStep);
-        if (running_)
-            time_s_ += dt;
-        controls_.step(pose_, input, dt);
-        keep_above_ground(pose_, ground());
+        const double dt = running_ ? real : 0;
+        time_s_ += dt;
+        source_.advance(pose_, {input, real, time_s_, dt, land_});
     }
 
     void draw(glm::ivec2 size, std::uint32_t index) {
@@ -91,7 +92,8 @@ private:
         settings_.height = std::min(size.y, kLargestSide);
         settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
         settings_.most_physics_steps = options_.fixed_step ? 0 : kMostPhysicsSteps;
-        const Camera camera = render::camera_of_pose(pose_, settings_.width, settings_.height);
+        const scene::Pose& at = pose_.pose;
+        const Camera camera = camera_of({at.position, at.yaw_deg, at.pitch_deg, pose_.roll_deg, at.fov_deg}, settings_.width, settings_.height);
         const glm::dvec3 eye = eye_of(camera);
         field_.simulate(time_s_, {&eye, 1}, render::limits_of(settings_));
         render::Access::settings(view_) = settings_;
@@ -104,18 +106,16 @@ private:
     void present() {
         panel_.draw(
             settings_, running_,
-            {stats_, pose_, ground(), controls_.speed_ms(), frame_ms_, time_s_, gpu_, messages_}, [&] { draw_overlays(); });
+            {stats_, pose_.pose, ground(), source_.note(), frame_ms_, time_s_, gpu_, messages_}, [&] { draw_overlays(); });
         window_.swap();
     }
 
     void draw_overlays() {
         const ImVec2 size = ImGui::GetIO().DisplaySize;
-        const Eye eye(pose_, {size.x, size.y});
-        const Land land{[&](double x, double z) { return field_.ground_height(x, z); },
-                          [&](double x, double z) { return field_.wind_at(x, z, time_s_); }};
+        const Eye eye(pose_.pose, {size.x, size.y});
         if (flow_)
-            draw_flow(eye, land, time_s_);
-        if (arrows_.draw(eye, land, time_s_))
+            draw_flow(eye, land_, time_s_);
+        if (arrows_.draw(eye, land_, time_s_))
             render::Access::state(field_).sources().set_arrows(arrows_.arrows());
     }
 
@@ -138,7 +138,7 @@ private:
     }
 
     void print_pose() const {
-        scene::Pose above_ground = pose_;
+        scene::Pose above_ground = pose_.pose;
         above_ground.position.y -= ground();
         above_ground.agl = true;
         fmt::print("{}\n", scene::format_pose(above_ground));
@@ -167,14 +167,16 @@ private:
     const Options& options_;
     Window& window_;
     Field& field_;
+    PoseSource& source_;
+    const Land land_{[this](double x, double z) { return field_.ground_height(x, z); },
+                     [this](double x, double z) { return field_.wind_at(x, z, time_s_); }};
     View view_;
     Panel panel_;
-    FlyControls controls_;
     ArrowPanel arrows_;
     bool flow_ = false;
     render::FrameSettings settings_;
     render::FrameStats stats_;
-    scene::Pose pose_; ///< above the datum
+    ViewPose pose_;
     std::string gpu_;
     std::vector<std::string> messages_;
     bool running_ = true;
@@ -186,8 +188,11 @@ private:
 } // namespace
 
 void run_view(const Options& options) {
+    if (options.list_joysticks)
+        return list_joysticks();
     const scene::Scene scene = load_scene(options);
     scene::Pose start = find_camera(scene, options.camera); // a wrong name is told before the window opens
+    const FeedLinks links = open_feed(options);   // a port in use likewise
     gl::DebugMessages messages;
     Window window("Sward", options.frame.width, options.frame.height, options.debug_gl);
     gl::require_gl45();
@@ -195,11 +200,13 @@ void run_view(const Options& options) {
         gl::watch_debug_messages(&messages);
     render::World world = load_world(scene);
     world.far = options.frame.far;
-    scene::settle_place(start, place_on_earth(world.elevation), "--camera");
+    const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
+    scene::settle_place(start, on_earth, "--camera");
+    const std::unique_ptr<PoseSource> source = make_pose_source(options, {links, on_earth, links.out ? grass_share_of(world) : GrassShare()});
     Field field = render::Access::field_of(std::move(world));
     window.show();
     {
-        Flight flight(options, scene, start, window, field);
+        Flight flight(options, scene, start, window, field, *source);
         flight.run();
     }
     if (messages.count > 0)

@@ -95,7 +95,7 @@ void draw_facts(const PanelFacts& facts) {
     }
     const glm::dvec3& p = facts.pose.position;
     ImGui::Separator();
-    ImGui::Text("%.1f ms a frame, %.1f m/s, t %.1f s", facts.frame_ms, facts.speed_ms,
+    ImGui::Text("%.1f ms a frame, %s, t %.1f s", facts.frame_ms, facts.note.c_str(),
                 facts.time_s);
     ImGui::Text("x %.1f  z %.1f  %.2f m above ground", p.x, p.z, p.y - facts.ground_m);
     ImGui::Text("yaw %.1f  pitch %.1f", facts.pose.yaw_deg, facts.pose.pitch_deg);

@@ -17,7 +17,7 @@ struct PanelFacts {
     const render::FrameStats& stats;
     const scene::Pose& pose; ///< above the datum
     double ground_m = 0;
-    double speed_ms = 0;
+    std::string note; ///< of what moves the eye
     double frame_ms = 0;
     double time_s = 0;
     const std::string& gpu;

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets"},
+    "app": {"render", "assets", "feed", "input"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
@@ -24,6 +24,8 @@ ARROWS = {
     "grass": {"base"},
     "scene": {"base"},
     "gl": {"base"},
+    "feed": {"scene"},
+    "input": {"scene"},
     "assets": {"scene"},
     "texgen": {"grass", "assets"},
     "base": set(),

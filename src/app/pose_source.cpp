@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/pose_source.h"
+
+#include <fmt/format.h>
+
+#include "app/controls.h"
+#include "app/feed_source.h"
+
+namespace sward::app {
+namespace {
+
+/// The free camera. It flies by the clock, so that one can look around while time stands.
+class FreeFlight : public PoseSource {
+public:
+    void advance(ViewPose& pose, const PoseMoment& moment) override {
+        controls_.step(pose.pose, moment.input, moment.real_s);
+        keep_above_ground(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
+        pose.roll_deg = 0;
+    }
+    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_ms()); }
+
+private:
+    FlyControls controls_;
+};
+
+} // namespace
+
+std::unique_ptr<PoseSource> make_pose_source(const Options&, const SourceParts& parts) {
+    std::unique_ptr<PoseSource> source;
+    if (parts.links.in)
+        source = make_feed_source(parts.links.in, parts.on_earth);
+    else
+        source = std::make_unique<FreeFlight>();
+    if (parts.links.out)
+        source = with_report(std::move(source), parts.links.out, parts.grass);
+    return source;
+}
+
+} // namespace sward::app

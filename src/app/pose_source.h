@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "app/feed_links.h"
+#include "app/flow_overlay.h"
+#include "app/options.h"
+#include "app/window.h"
+#include "scene/scene.h"
+
+namespace sward::app {
+
+/// Where the picture is seen from. The pose is above the datum.
+struct ViewPose {
+    scene::Pose pose;
+    double roll_deg = 0; ///< positive lowers the right wing
+};
+
+/// What a pose source is told once a picture.
+struct PoseMoment {
+    const Input& input; ///< keys, mouse and gamepad since the call before
+    double real_s = 0;  ///< by the clock since the call before; at most a quarter of a second, however long a picture took
+    double time_s = 0;  ///< simulated, of the picture that is drawn next
+    double dt_s = 0;    ///< simulated since the call before; 0 while time stands
+    const Land& land;   ///< ground and wind
+};
+
+/// What moves the eye: the keyboard, a vehicle, a recording, another program. The viewer asks it once a picture, before it simulates.
+class PoseSource {
+public:
+    virtual ~PoseSource() = default;
+    /// Takes `pose` on from where it stood after the call before (cameras on keys and a new scene put it elsewhere meanwhile).
+    virtual void advance(ViewPose& pose, const PoseMoment& moment) = 0;
+    /// A few words for the line on the picture ("set 5 m/s", "stream stands since 3 s"); empty: none.
+    [[nodiscard]] virtual std::string note() const { return {}; }
+};
+
+/// What a source may be made of beside the options.
+struct SourceParts {
+    FeedLinks links;      ///< open_feed()
+    scene::PlaceOnEarth on_earth; ///< null where the terrain has no place on Earth
+    GrassShare grass;     ///< grass_share_of(), where `links.out` stands
+};
+/// The source that the options name: the one place where it is chosen. Throws Error.
+[[nodiscard]] std::unique_ptr<PoseSource> make_pose_source(const Options& options, const SourceParts& parts);
+
+} // namespace sward::app
