@@ -203,9 +203,11 @@ void Panel::draw(PanelEdits& edits, const PanelFacts& facts) {
 
 void Panel::draw_line(const std::string& line) {
     ImDrawList& list = *ImGui::GetForegroundDrawList();
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    list.AddRectFilled({0, 0}, {size.x, kLineHeight}, IM_COL32(0, 0, 0, 150));
-    list.AddText({10, 4}, kInk, line.c_str());
+    // A narrow window has it in two rows, or three.
+    const float width = ImGui::GetIO().DisplaySize.x, wrap = std::max(60.0f, width - 20);
+    const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, wrap).y;
+    list.AddRectFilled({0, 0}, {width, height + kLineHeight - ImGui::GetTextLineHeight()}, IM_COL32(0, 0, 0, 150));
+    list.AddText(nullptr, 0, {10, 4}, kInk, line.c_str(), nullptr, wrap);
 }
 
 void Panel::draw_help() {
