@@ -45,6 +45,7 @@ public:
         keep_above_ground(pose.pose, moment.land.height(at->position.x, at->position.z));
     }
 
+    [[nodiscard]] bool in_real_time() const override { return true; }
     [[nodiscard]] std::string note() const override {
         std::string text;
         switch (track_.stream(now_)) {
@@ -113,6 +114,7 @@ public:
         describe(report, moment.land);
         out_->send(feed::encode_report(report)); // a lost one is followed by the next
     }
+    [[nodiscard]] bool in_real_time() const override { return source_->in_real_time(); }
     [[nodiscard]] std::string note() const override { return source_->note(); }
 
 private:

@@ -13,7 +13,8 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets", "feed", "input"},
+    "app": {"render", "assets", "feed", "input", "drive"},
+    "drive": {"scene"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
@@ -45,11 +46,13 @@ HOUSES = {
     "ogr_": {"assets"},
     "GLFW/": {"app"},
     "imgui": {"app"},
+    "Bullet": {"drive"},
+    "btBullet": {"drive"},
     "backends/imgui": {"app"},
     "CLI/": {"app", "texgen"},
     "tiny_gltf": {"assets", "grass"},
     "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "tracks", "lod", "render", "app"},
-    "toml++/": {"scene", "texgen"},
+    "toml++/": {"scene", "texgen", "drive"},
 }
 SUFFIXES = {".h", ".cpp", ".glsl", ".vert", ".frag", ".comp", ".tesc", ".tese", ".geom"}
 INCLUDE = re.compile(r'^\s*#\s*include\s+(["<])([^">]+)[">]')
