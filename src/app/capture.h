@@ -18,4 +18,19 @@ void capture(const render::ViewState& view, const std::filesystem::path& path,
 /// over an older one. Returns its name. Throws Error(kIo).
 [[nodiscard]] std::filesystem::path capture_screenshot(const render::ViewState& view);
 
+/// Pictures one after another, in the next free folder sward-seq-NNNN of the working directory.
+class PictureSequence {
+public:
+    /// Makes the folder. Throws Error(kIo).
+    PictureSequence();
+    /// Writes the frame just drawn as the next, from 00000 on. Throws Error(kIo).
+    void add(const render::ViewState& view);
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+    [[nodiscard]] int count() const { return count_; }
+
+private:
+    std::filesystem::path folder_;
+    int count_ = 0;
+};
+
 } // namespace sward::app

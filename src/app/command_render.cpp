@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -7,9 +10,11 @@
 #include "app/camera_file.h"
 #include "app/capture.h"
 #include "app/commands.h"
+#include "app/flight_record.h"
 #include "app/io.h"
 #include "app/output_names.h"
 #include "app/poses.h"
+#include "app/recorder.h"
 #include "app/stats_json.h"
 #include "app/world_loader.h"
 #include "base/file.h"
@@ -21,12 +26,15 @@
 namespace sward::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Which frames are drawn, and from where: resolved against the scene before any costly work.
 struct Shot {
     scene::Pose camera;
     std::optional<scene::Path> path; ///< of the scene; none: `camera` stands
     std::optional<scene::Pose> lod_eye;
     std::optional<Camera> matrices; ///< in the place of both
+    std::optional<FlightRecord> record; ///< likewise, and of the time's steps
     FrameRange frames;
 };
 
@@ -40,6 +48,8 @@ Shot plan_shot(const Options& options, const scene::Scene& scene) {
     shot.lod_eye = options.lod_eye;
     if (!options.camera_matrices.empty())
         shot.matrices = read_camera(options.camera_matrices);
+    if (!options.replay.empty())
+        shot.record = read_record(options.replay);
     return shot;
 }
 
@@ -70,6 +80,12 @@ scene::Pose above_datum(scene::Pose pose, const Field& field) {
 Look look_of(const Shot& shot, const Options& options, const Field& field, int frame) {
     Look look;
     look.time_s = options.time_s + frame * options.step_s;
+    if (shot.record) {
+        look.time_s = std::max(options.time_s, shot.record->start_s) + frame * options.step_s;
+        const ViewPose at = shot.record->pose_at(look.time_s);
+        look.camera = camera_of(at, options.frame.width, options.frame.height);
+        return look;
+    }
     const scene::Pose pose = above_datum(shot.path ? scene::sample_path(*shot.path, look.time_s) : shot.camera, field);
     look.camera = shot.matrices ? *shot.matrices : render::camera_of_pose(pose, options.frame.width, options.frame.height);
     if (shot.lod_eye)
@@ -85,6 +101,15 @@ void require_silence(const gl::DebugMessages& messages) {
                         messages.count, base::printable(messages.first, 400)));
 }
 
+void write_picture(const render::ViewState& drawn, const fs::path& name, const Options& options) {
+    if (options.raw) {
+        write_raw(drawn.read_picture());
+        return;
+    }
+    make_parent(name);
+    capture(drawn, name, options.aovs);
+}
+
 /// One picture and its statistics: both or neither.
 void write_one(const Options& options, const render::ViewState& view, const std::vector<std::string>& stats) {
     std::optional<base::PendingOutput> pending;
@@ -97,7 +122,7 @@ void write_one(const Options& options, const render::ViewState& view, const std:
             throw base::input_error(base::ExitCode::kIo, options.stats, 0, "cannot write", "no room for it", "room for the whole file");
         }
     }
-    capture(view, options.output, options.aovs);
+    write_picture(view, options.output, options);
     if (pending)
         pending->commit();
 }
@@ -130,9 +155,36 @@ void take_tracks(const Options& options, Field& field) {
         render::Access::state(field).tracks->begin_with(read_linear(options.tracks), base::printable(options.tracks.native()));
 }
 
+/// How many pictures a record has where --frames does not say.
+FrameRange whole_of(const FlightRecord& record, const Options& options) {
+    constexpr int kMostFrames = 999'999;
+    const double first = std::max(options.time_s, record.start_s), steps = std::max(0.0, record.end_s() - first) / options.step_s;
+    return {0, static_cast<int>(std::min<double>(kMostFrames, std::floor(steps + 1e-6)))};
+}
+
+/// The field as it is at a picture's time.
+void simulate(const Shot& shot, const Look& look, Field& field, const SimulationLimits& limits, std::optional<RecordedTime>& steps) {
+    if (!shot.record) {
+        const glm::dvec3 eye = eye_of(look.camera);
+        field.simulate(look.time_s, {&eye, 1}, limits);
+        return;
+    }
+    if (!steps)
+        steps.emplace(field, limits);
+    steps->follow(*shot.record, look.time_s);
+}
+
+/// With --replay and no --frames it is the whole flight.
+Options settled(Options options) {
+    if (!options.replay.empty() && !options.frames)
+        options.frames = whole_of(read_record(options.replay), options);
+    return options;
+}
+
 } // namespace
 
-void run_render(const Options& options) {
+void run_render(const Options& given) {
+    const Options options = settled(given);
     check_outputs(options);
     const scene::Scene scene = load_scene(options);
     check_not_inputs(options, scene);
@@ -163,21 +215,20 @@ void run_render(const Options& options) {
     render::Access::inside(field).wait_in_passes = settings.wait_in_passes;
     const render::ViewState& drawn = render::Access::state(view);
     std::vector<std::string> stats;
+    std::optional<RecordedTime> steps;
     for (int frame = shot.frames.first; frame <= shot.frames.last; ++frame) {
         const Look look = look_of(shot, options, field, frame);
         settings.lod_eye = look.lod_eye;
-        const glm::dvec3 eye = eye_of(look.camera);
         const int times = frame == shot.frames.first ? options.warm + 1 : 1;
         for (int i = 0; i < times; ++i) {
-            field.simulate(look.time_s, {&eye, 1}, render::limits_of(settings));
+            simulate(shot, look, field, render::limits_of(settings), steps);
             view.draw(look.camera, {settings.width, settings.height});
         }
         if (!options.stats.empty())
             stats.push_back(stats_json(drawn.stats(), gpu, settings));
         require_silence(messages);
-        make_parent(names.name(frame));
         if (options.frames)
-            capture(drawn, names.name(frame), options.aovs);
+            write_picture(drawn, names.name(frame), options);
         if (progress)
             progress->advance();
     }

@@ -1,188 +1,142 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include "app/arrow_panel.h"
-#include "app/capture.h"
 #include "app/commands.h"
+#include "app/flight.h"
 #include "app/io.h"
 #include "app/joystick_list.h"
-#include "app/panel.h"
+#include "app/load_screen.h"
+#include "app/paths.h"
 #include "app/pose_source.h"
 #include "app/poses.h"
+#include "app/recent_scenes.h"
+#include "app/view_scene.h"
 #include "app/window.h"
-#include "app/world_loader.h"
+#include "base/error.h"
+#include "base/file.h"
 #include "base/log.h"
+#include "gl/breath.h"
 #include "gl/context.h"
 #include "render/access.h"
-#include "render/renderer.h"
 
 namespace sward::app {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+scene::Scene first_scene(const Options& options) {
+    return open_scene(options.scene.empty() ? default_scene() : options.scene);
+}
 
-constexpr double kLongestStep = 0.25;   // s: the wind must not leap after a stop
-constexpr int kMostWindSteps = 4;       // of the local window in a frame: a slow GPU slows the wind, not the flight
-constexpr int kMostPhysicsSteps = 4;    // likewise of the blades
-constexpr int kFramesBetweenStats = 15; // reading counters waits for the GPU
-constexpr int kLargestSide = 16384;
+WindowPlace place_of(const Options& options) {
+    return options.window.value_or(WindowPlace{options.frame.width, options.frame.height, {}});
+}
 
-/// The state of a flight: what the keys, the panel and the clock change from frame to frame.
-class Flight {
+/// Checked before the window opens: what is replayed, and that there is room for what is kept.
+std::optional<FlightRecord> record_of(const Options& options) {
+    if (!options.record.empty())
+        base::require_writable(options.record);
+    return options.replay.empty() ? std::nullopt : std::optional(read_record(options.replay));
+}
+
+/// The eye of a flight that was kept.
+class ReplaySource : public PoseSource {
 public:
-    Flight(const Options& options, const scene::Scene& scene, const scene::Pose& start, Window& window,
-           Field& field, PoseSource& source)
-        : options_(options), window_(window), field_(field), source_(source), view_(field), panel_(window.handle()),
-          arrows_(scene.wind.arrows, scene.file), settings_(options.frame), pose_{above_datum(start)},
-          gpu_(gl::context_info().renderer), time_s_(options.time_s), last_(Clock::now()) {}
+    explicit ReplaySource(const FlightRecord& record) : record_(record) {}
+    void advance(ViewPose& pose, const PoseMoment& moment) override {
+        pose = record_.pose_at(moment.time_s);
+        ended_ = moment.time_s >= record_.end_s();
+    }
+    [[nodiscard]] std::string note() const override {
+        return ended_ ? "replay: ended" : fmt::format("replay: to {:.1f} s", record_.end_s());
+    }
 
-    /// Draws until the window is closed, or for options.exit_after frames.
-    void run() {
-        for (int frame = 0; !window_.closed(); ++frame) {
-            if (options_.exit_after > 0 && frame >= options_.exit_after)
-                return;
-            const Input input = window_.poll(panel_.has_mouse(), panel_.has_keyboard());
-            if (input.has(Action::kQuit))
-                return;
-            const glm::ivec2 size = window_.framebuffer_size();
-            if (size.x < 1 || size.y < 1) {
-                window_.wait();
-                last_ = Clock::now();
-                --frame; // not drawn
-                continue;
+private:
+    const FlightRecord& record_;
+    bool ended_ = false;
+};
+
+/// A window that shows one scene after another.
+class Viewer {
+public:
+    explicit Viewer(const Options& options)
+        : options_(options), record_(record_of(options)), links_(open_feed(options)), window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
+        gl::require_gl45();
+    }
+
+    /// Shows a scene, from its camera `camera`, and what is asked for next. A scene that was asked for within the window and fails is told of, and
+    /// the one before is there again. Throws Stopped.
+    void run(scene::Scene scene, std::string camera) {
+        std::optional<scene::Scene> before;
+        std::string word;
+        while (true) {
+            std::optional<scene::Scene> next;
+            try {
+                next = show(scene, camera, word);
+                word.clear();
+                before = std::move(scene);
+            } catch (const base::Error& error) {
+                if (!before)
+                    throw;
+                word = error.what();
+            } catch (const Error& error) { // of the library's face
+                if (!before)
+                    throw;
+                word = error.what();
+            } catch (const AlreadyReported&) {
+                if (!before)
+                    throw;
+                word = fmt::format("{}: its grass set could not be baked", scene.file.string());
             }
-            advance(input);
-            draw(size, static_cast<std::uint32_t>(frame));
-            act(input);
-            present();
+            if (!word.empty()) {
+                base::log_error(word);
+                next = std::exchange(before, {});
+            }
+            if (!next)
+                return;
+            scene = std::move(*next);
+            camera.clear();
         }
     }
 
 private:
-    [[nodiscard]] double ground() const {
-        return field_.ground_height(pose_.pose.position.x, pose_.pose.position.z);
-    }
-    [[nodiscard]] scene::Pose above_datum(scene::Pose pose) const {
-        if (pose.agl)
-            pose.position.y += field_.ground_height(pose.position.x, pose.position.z);
-        pose.agl = false;
-        return pose;
-    }
-
-    void advance(const Input& input) {
-        const auto now = Clock::now();
-        const double elapsed = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        frame_ms_ = elapsed * 1000;
-        const double real =
-            options_.fixed_step ? options_.step_s : std::clamp(elapsed, 0.0, kLongestStep);
-        const double dt = running_ ? real : 0;
-        time_s_ += dt;
-        source_.advance(pose_, {input, real, time_s_, dt, land_});
-    }
-
-    void draw(glm::ivec2 size, std::uint32_t index) {
-        settings_.width = std::min(size.x, kLargestSide);
-        settings_.height = std::min(size.y, kLargestSide);
-        settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
-        settings_.most_physics_steps = options_.fixed_step ? 0 : kMostPhysicsSteps;
-        const scene::Pose& at = pose_.pose;
-        const Camera camera = camera_of({at.position, at.yaw_deg, at.pitch_deg, pose_.roll_deg, at.fov_deg}, settings_.width, settings_.height);
-        const glm::dvec3 eye = eye_of(camera);
-        field_.simulate(time_s_, {&eye, 1}, render::limits_of(settings_));
-        render::Access::settings(view_) = settings_;
-        // A window larger than any picture keeps a rim.
-        view_.draw(camera, {settings_.width, settings_.height, 0, 0, std::max(0, size.y - settings_.height)});
-        if (index % kFramesBetweenStats == 0)
-            stats_ = render::Access::state(view_).stats();
+    std::optional<scene::Scene> show(scene::Scene& scene, const std::string& camera, const std::string& word) {
+        if (options_.density)
+            scene.grass.density = *options_.density;
+        scene::Pose start = find_camera(scene, camera);
+        LoadScreen screen(window_, panel_, scene_title(scene));
+        window_.forget_keys();
+        render::World world = screen.read(scene);
+        world.far = options_.frame.far;
+        const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
+        scene::settle_place(start, on_earth, "--camera");
+        const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg : SunDay::kUsualLatitude_deg;
+        const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, {links_, on_earth, links_.out ? grass_share_of(world) : GrassShare()});
+        Field field = build(std::move(world), screen);
+        if (options_.exit_after == 0)
+            note_recent(recent_file(), scene.file);
+        std::optional<RecordWriter> writer;
+        if (!options_.record.empty())
+            writer.emplace(options_.record, scene.file.string(), options_.time_s);
+        Flight flight({options_, scene, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
+        return flight.run();
     }
 
-    void present() {
-        panel_.draw(
-            settings_, running_,
-            {stats_, pose_.pose, ground(), source_.note(), frame_ms_, time_s_, gpu_, messages_}, [&] { draw_overlays(); });
-        window_.swap();
-    }
-
-    void draw_overlays() {
-        const ImVec2 size = ImGui::GetIO().DisplaySize;
-        const Eye eye(pose_.pose, {size.x, size.y});
-        if (flow_)
-            draw_flow(eye, land_, time_s_);
-        if (arrows_.draw(eye, land_, time_s_))
-            render::Access::state(field_).sources().set_arrows(arrows_.arrows());
-    }
-
-    void act(const Input& input) {
-        if (input.has(Action::kFlow))
-            flow_ = !flow_;
-        if (input.has(Action::kArrows))
-            arrows_.shown = !arrows_.shown;
-        arrows_.act(input);
-        if (input.has(Action::kHelp))
-            panel_.help = !panel_.help;
-        if (input.has(Action::kPanel))
-            panel_.shown = !panel_.shown;
-        if (input.has(Action::kPose))
-            print_pose();
-        if (input.has(Action::kScreenshot))
-            take_screenshot();
-        if (input.has(Action::kReload))
-            reload();
-    }
-
-    void print_pose() const {
-        scene::Pose above_ground = pose_.pose;
-        above_ground.position.y -= ground();
-        above_ground.agl = true;
-        fmt::print("{}\n", scene::format_pose(above_ground));
-        std::fflush(stdout);
-    }
-
-    /// A full disk costs the picture, not the flight.
-    void take_screenshot() {
-        try {
-            base::log_info("screenshot: " + capture_screenshot(render::Access::state(view_)).string());
-        } catch (const base::Error& error) {
-            base::log_error(error.what());
-        }
-    }
-
-    void reload() {
-        messages_.clear();
-        render::Access::state(field_).reload(messages_);
-        render::Access::state(view_).reload(messages_);
-        for (const std::string& message : messages_)
-            base::log_warning(message);
-        if (messages_.empty())
-            base::log_info("shaders reloaded");
+    static Field build(render::World world, LoadScreen& screen) {
+        const gl::BreathScope breath([&] { screen.show("textures and shaders"); });
+        screen.show("textures and shaders");
+        Field field = render::Access::field_of(std::move(world));
+        static_cast<void>(render::Access::state(field).passes(false));
+        return field;
     }
 
     const Options& options_;
-    Window& window_;
-    Field& field_;
-    PoseSource& source_;
-    const Land land_{[this](double x, double z) { return field_.ground_height(x, z); },
-                     [this](double x, double z) { return field_.wind_at(x, z, time_s_); }};
-    View view_;
+    std::optional<FlightRecord> record_; ///< --replay
+    FeedLinks links_; ///< before the window: a port in use is told at once
+    Window window_;
     Panel panel_;
-    ArrowPanel arrows_;
-    bool flow_ = false;
-    render::FrameSettings settings_;
-    render::FrameStats stats_;
-    ViewPose pose_;
-    std::string gpu_;
-    std::vector<std::string> messages_;
-    bool running_ = true;
-    double time_s_;
-    double frame_ms_ = 0;
-    Clock::time_point last_;
 };
 
 } // namespace
@@ -190,24 +144,15 @@ private:
 void run_view(const Options& options) {
     if (options.list_joysticks)
         return list_joysticks();
-    const scene::Scene scene = load_scene(options);
-    scene::Pose start = find_camera(scene, options.camera); // a wrong name is told before the window opens
-    const FeedLinks links = open_feed(options);   // a port in use likewise
+    scene::Scene scene = first_scene(options);
+    static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
     gl::DebugMessages messages;
-    Window window("Sward", options.frame.width, options.frame.height, options.debug_gl);
-    gl::require_gl45();
+    Viewer viewer(options);
     if (options.debug_gl)
         gl::watch_debug_messages(&messages);
-    render::World world = load_world(scene);
-    world.far = options.frame.far;
-    const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
-    scene::settle_place(start, on_earth, "--camera");
-    const std::unique_ptr<PoseSource> source = make_pose_source(options, {links, on_earth, links.out ? grass_share_of(world) : GrassShare()});
-    Field field = render::Access::field_of(std::move(world));
-    window.show();
-    {
-        Flight flight(options, scene, start, window, field, *source);
-        flight.run();
+    try {
+        viewer.run(std::move(scene), options.camera);
+    } catch (const Stopped&) { // as asked
     }
     if (messages.count > 0)
         throw base::Error(

@@ -16,6 +16,7 @@ namespace sward::app {
 namespace {
 
 constexpr double kSlopeStep_m = 0.5; // to both sides: the finest posts
+constexpr double kLongPicture_s = 1; // in which the socket may have run over: what it holds then is old, and says nothing of now
 
 double clock_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -32,8 +33,10 @@ public:
             if (packet != feed::Packet::kTaken && packet != feed::Packet::kDoubled)
                 last_refused_ = packet;
         });
+        const bool asleep = now - now_ > kLongPicture_s;
         now_ = now;
-        tell();
+        if (!asleep)
+            tell();
         const std::optional<feed::FeedPose> at = track_.pose(now);
         if (!at)
             return;
@@ -45,6 +48,7 @@ public:
         keep_above_ground(pose.pose, moment.land.height(at->position.x, at->position.z));
     }
 
+    [[nodiscard]] bool in_real_time() const override { return true; }
     [[nodiscard]] std::string note() const override {
         std::string text;
         switch (track_.stream(now_)) {
@@ -113,6 +117,7 @@ public:
         describe(report, moment.land);
         out_->send(feed::encode_report(report)); // a lost one is followed by the next
     }
+    [[nodiscard]] bool in_real_time() const override { return source_->in_real_time(); }
     [[nodiscard]] std::string note() const override { return source_->note(); }
 
 private:

@@ -41,6 +41,8 @@ namespace sward::app {
 /// Write a file whole or not at all. Throw Error(kIo).
 void write_display(const std::filesystem::path& path, const scene::Picture& picture);
 void write_linear(const std::filesystem::path& path, const scene::Image& image);
+/// Writes a picture's bytes to stdout. Throws Error(kIo) where the other end is gone.
+void write_raw(const scene::Picture& picture);
 /// Reads what write_linear wrote. The core build reads none: throws Error(kBadInput).
 [[nodiscard]] scene::Image read_linear(const std::filesystem::path& path);
 

@@ -92,7 +92,7 @@ void declare_frame_options(CLI::App& app, Options* o) {
             "simulated time from one frame to the next; default 1/60. The viewer follows the clock "
             "without it",
             [=](const std::string& text) {
-                o->step_s = parse_number("--fixed-timestep", text, kStep);
+                o->step_s = parse_step("--fixed-timestep", text, kStep);
                 o->fixed_step = true;
             });
     declare(
@@ -148,13 +148,26 @@ void declare_test_options(CLI::App& app, Options* o) {
         ->group(kGroup);
 }
 
+constexpr std::array<std::pair<std::string_view, bool>, 1> kFormats = {{{"rgb24", true}}};
+
+/// -o and what it may be instead of a file.
+void declare_output(CLI::App& app, const std::string& value, Options* o) {
+    declare(app, "-o,--output", value, "the picture; with --frames a name with %d or %04d in it; \"-\" is stdout, with --format", [=](const std::string& text) {
+        if (text.empty() || text.find('\0') != std::string::npos)
+            throw option_error("--output", text, "the name of a file");
+        if (text.front() == '-' && text != "-")
+            throw option_error("--output", text, fmt::format("the name of a file (./{} for one with a dash)", base::printable(text)));
+        o->output = text;
+    })->required();
+    declare(app, "--format", "rgb24", "what -o - writes: 3 bytes a pixel, row by row from the top, picture after picture, as ffmpeg's rawvideo reads them",
+            [=](const std::string& text) { o->raw = parse_choice("--format", text, kFormats); });
+}
+
 void declare_render(CLI::App& app, Options* o) {
     const std::string extensions = fmt::format("{}", fmt::join(picture_extensions(), "|"));
     declare_path(app, "SCENE", "PATH", "scene file, or directory with scene.toml", &o->scene);
     app.get_option("SCENE")->required();
-    declare_path(app, "-o,--output", "OUT.(" + extensions + ")",
-                 "the picture; with --frames a name with %d or %04d in it", &o->output);
-    app.get_option("--output")->required();
+    declare_output(app, "OUT.(" + extensions + ")", o);
     declare_frame_options(app, o);
     declare(app, "--aov", "LIST",
             "color,depth,tier,coverage,tangent,normal,rank: channels of an .exr",
@@ -177,6 +190,9 @@ void declare_render(CLI::App& app, Options* o) {
             })
         ->excludes("--camera")
         ->excludes("--path");
+    declare_path(app, "--replay", "FILE", "the camera, the sun and the wind of a flight that `sward view --record` wrote; without --frames the whole of it",
+                 &o->replay);
+    app.get_option("--replay")->excludes("--camera")->excludes("--path")->excludes("--camera-matrices");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
@@ -215,6 +231,12 @@ void declare_view(CLI::App& app, Options* o) {
                     throw option_error("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
             });
     app.add_flag("--list-joysticks", o->list_joysticks, "prints what is plugged in and what controls.toml does with it, and ends");
+    declare(app, "--window", "WxH[+X+Y]", "the window's size and the place of its corner on the desktop, in pixels",
+            [=](const std::string& text) { o->window = parse_window("--window", text); })
+        ->excludes("--size");
+    declare_path(app, "--record", "FILE", "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
+    declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
+    app.get_option("--replay")->excludes("--record")->excludes("--camera")->excludes("--native-fdm");
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
         o->exit_after = static_cast<int>(parse_integer("--frames", text, kExitAfter));

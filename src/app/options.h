@@ -22,6 +22,12 @@ struct FrameRange {
     int last = 0;
 };
 
+/// Where a window stands.
+struct WindowPlace {
+    int width = 1280, height = 720;
+    std::optional<glm::ivec2> at; ///< of its upper left corner on the desktop; none: the window manager's choice
+};
+
 /// Everything the command line can say, checked as far as that needs no file. Each option is
 /// declared once, in options.cpp; the panel of the viewer edits the same `frame`.
 struct Options {
@@ -48,6 +54,8 @@ struct Options {
     std::optional<scene::Pose> lod_eye;
     std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
+    std::filesystem::path replay;      ///< a record that the eye and the weather follow; view too. Empty: none
+    bool raw = false;                  ///< --format rgb24: bytes of the display pictures on stdout
     std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
     std::filesystem::path save_tracks; ///< what lies at the end; empty: not kept
 
@@ -65,6 +73,8 @@ struct Options {
     std::optional<feed::Endpoint> native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
     std::optional<feed::Endpoint> udp_out;    ///< whom to tell what lies under it
     bool list_joysticks = false;              ///< in the place of a window
+    std::filesystem::path record; ///< written as the flight goes on; empty: none
+    std::optional<WindowPlace> window; ///< none: of `frame`'s size
     int exit_after = 0; ///< frames; 0: until it is closed
 };
 

@@ -43,7 +43,7 @@ void check_extension(const fs::path& output) {
 } // namespace
 
 OutputNames::OutputNames(const Options& options) : before_(options.output.string()) {
-    if (!options.frames)
+    if (!options.frames || options.raw)
         return;
     const std::string whole = before_;
     const std::size_t slash = whole.rfind('/'); // folders may be called what they like
@@ -69,6 +69,16 @@ fs::path OutputNames::name(int frame) const {
 
 void check_outputs(const Options& options) {
     std::error_code ignored;
+    if ((options.output == "-") != options.raw)
+        throw options.raw ? option_error("--output", options.output.string(), "-, as --format is given")
+                          : option_error("--output", "-", "--format rgb24 beside it, or the name of a file");
+    if (options.raw) {
+        if (!options.aovs.empty())
+            throw option_error("--output", "-", "a name that ends in .exr, as --aov is given");
+        if (!options.stats.empty())
+            require_place(options.stats);
+        return;
+    }
     if (fs::exists(options.output, ignored))
         base::require_writable(options.output); // a directory or a device, whatever it is called
     check_extension(options.output);
@@ -111,7 +121,7 @@ void check_not_inputs(const Options& options, const scene::Scene& scene) {
           scene.file.parent_path() / scene.grass.set}) {
         if (input.empty())
             continue;
-        if (same_file(first, input))
+        if (!options.raw && same_file(first, input))
             throw option_error("--output", first.string(), "another file than the scene's own");
         if (!options.stats.empty() && same_file(options.stats, input))
             throw option_error("--stats", options.stats.string(),

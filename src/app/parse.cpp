@@ -5,6 +5,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>
@@ -85,6 +86,36 @@ std::pair<int, int> parse_size(std::string_view option, std::string_view text) {
     if (sides.size() != 2)
         throw option_error(option, text, "WIDTHxHEIGHT in pixels, such as 1280x720");
     return {parse_side(option, sides[0], text), parse_side(option, sides[1], text)};
+}
+
+WindowPlace parse_window(std::string_view option, std::string_view text) {
+    constexpr int kFarthest = 32767; // X11's own limit
+    const auto fail = [&] { return option_error(option, text, "WIDTHxHEIGHT or WIDTHxHEIGHT+X+Y in pixels, such as 1280x720+100+50"); };
+    const auto parts = split(text, '+');
+    if (parts.size() != 1 && parts.size() != 3)
+        throw fail();
+    const auto sides = split(parts[0], 'x');
+    if (sides.size() != 2)
+        throw fail();
+    WindowPlace place{parse_side(option, sides[0], text), parse_side(option, sides[1], text), {}};
+    if (parts.size() == 1)
+        return place;
+    const auto x = whole_number<int>(parts[1]), y = whole_number<int>(parts[2]);
+    if (!x || !y || std::abs(*x) > kFarthest || std::abs(*y) > kFarthest)
+        throw fail();
+    place.at = glm::ivec2(*x, *y);
+    return place;
+}
+
+double parse_step(std::string_view option, std::string_view text, NumberRange range) {
+    const auto parts = split(text, '/');
+    if (parts.size() != 2)
+        return parse_number(option, text, range);
+    const auto over = whole_number<double>(parts[0]), under = whole_number<double>(parts[1]);
+    const double step = over && under ? *over / *under : 0;
+    if (!std::isfinite(step) || step < range.least || step > range.most)
+        throw option_error(option, text, range_text(range, "a number") + ", or a fraction such as 1/144");
+    return step;
 }
 
 FrameRange parse_frames(std::string_view option, std::string_view text) {

@@ -32,6 +32,10 @@ struct NumberRange {
                                       NumberRange range);
 /// "1280x720". Throws Error(kOverLimit) above 16384 a side.
 [[nodiscard]] std::pair<int, int> parse_size(std::string_view option, std::string_view text);
+/// "1280x720", or with the place of its corner "1280x720+100+50" ("+-1920+0": left of the first screen). Throws Error(kOverLimit) as parse_size.
+[[nodiscard]] WindowPlace parse_window(std::string_view option, std::string_view text);
+/// Seconds from one frame to the next: a number, or a fraction such as 1/144.
+[[nodiscard]] double parse_step(std::string_view option, std::string_view text, NumberRange range);
 /// "A:B", A <= B.
 [[nodiscard]] FrameRange parse_frames(std::string_view option, std::string_view text);
 /// "color,depth": names the renderer knows, each once.

@@ -71,4 +71,15 @@ fs::path sphere_cache_directory() {
     return cache_directory() / "spheres";
 }
 
+fs::path recent_file() {
+    fs::path state = from_environment("XDG_STATE_HOME");
+    if (state.empty()) {
+        const fs::path home = from_environment("HOME");
+        if (home.empty())
+            return {};
+        state = home / ".local" / "state";
+    }
+    return state / "sward" / "recent-scenes";
+}
+
 } // namespace sward::app

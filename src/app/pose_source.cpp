@@ -17,6 +17,7 @@ public:
         keep_above_ground(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
         pose.roll_deg = 0;
     }
+    [[nodiscard]] bool in_real_time() const override { return true; }
     [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_ms()); }
 
 private:

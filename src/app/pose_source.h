@@ -7,16 +7,11 @@
 #include "app/feed_links.h"
 #include "app/flow_overlay.h"
 #include "app/options.h"
+#include "app/view_pose.h"
 #include "app/window.h"
 #include "scene/scene.h"
 
 namespace sward::app {
-
-/// Where the picture is seen from. The pose is above the datum.
-struct ViewPose {
-    scene::Pose pose;
-    double roll_deg = 0; ///< positive lowers the right wing
-};
 
 /// What a pose source is told once a picture.
 struct PoseMoment {
@@ -33,6 +28,8 @@ public:
     virtual ~PoseSource() = default;
     /// Takes `pose` on from where it stood after the call before (cameras on keys and a new scene put it elsewhere meanwhile).
     virtual void advance(ViewPose& pose, const PoseMoment& moment) = 0;
+    /// Whether it moves by the clock, even while time stands: its speed is then by the clock too.
+    [[nodiscard]] virtual bool in_real_time() const { return false; }
     /// A few words for the line on the picture ("set 5 m/s", "stream stands since 3 s"); empty: none.
     [[nodiscard]] virtual std::string note() const { return {}; }
 };

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <functional>
 #include <optional>
 
 #include <fcntl.h>
@@ -93,14 +95,35 @@ std::string reason_of(const base::Error& error) {
     return base::printable(error.what(), 300);
 }
 
-void bake(const fs::path& preset, const fs::path& set) {
+/// "PART: 30 %", as texgen tells of its progress where no terminal listens.
+std::optional<double> share_of(std::string_view line, std::string_view* part) {
+    const std::size_t colon = line.rfind(": ");
+    int percent = 0;
+    if (colon == std::string_view::npos || !line.ends_with(" %") ||
+        std::from_chars(line.data() + colon + 2, line.data() + line.size() - 2, percent).ec != std::errc())
+        return {};
+    *part = line.substr(0, colon);
+    return std::clamp(percent / 100.0, 0.0, 1.0);
+}
+
+void bake(const fs::path& preset, const fs::path& set, const LoadTold& told) {
     base::log_info(fmt::format("grass set of {}: baked on first use, into {}",
                                base::printable(preset.native(), 200), set.native()));
     std::vector<std::string> arguments = {fs::absolute(preset).string(), "-o", set.string(),
                                           "--no-preview", "--no-volume"};
     if (base::verbosity() == base::Verbosity::kQuiet)
         arguments.emplace_back("-q");
-    if (const int code = run_program(texgen_program(), arguments); code != 0)
+    std::function<void(std::string_view)> listen;
+    if (told) {
+        const std::string what = fmt::format("baking the grass set of {}", base::printable(preset.filename().native(), 100));
+        told(what, {});
+        listen = [what, &told](std::string_view line) {
+            std::string_view part;
+            if (const auto share = share_of(line, &part))
+                told(fmt::format("{}: {}", what, base::printable(part, 100)), share);
+        };
+    }
+    if (const int code = run_program(texgen_program(), arguments, listen); code != 0)
         throw AlreadyReported{code};
 }
 
@@ -132,8 +155,10 @@ std::optional<grass::GrassSet> read_cached(const fs::path& set, bool complain) {
 
 } // namespace
 
-grass::GrassSet load_grass(const scene::Scene& scene) {
+grass::GrassSet load_grass(const scene::Scene& scene, const LoadTold& told) {
     const SetPlace place = find_set(scene);
+    if (told)
+        told("grass set", {});
     if (!place.is_preset)
         return grass::read_grass_set(place.path);
     const std::string text = base::read_text(place.path, kPresetLimit);
@@ -143,6 +168,8 @@ grass::GrassSet load_grass(const scene::Scene& scene) {
     if (auto cached = read_cached(set, false))
         return std::move(*cached);
 
+    if (told)
+        told("grass set: waiting for the cache", {});
     const CacheLock lock(cache / (key + ".lock"));
     if (auto cached = read_cached(set, true)) // another process may have baked it while we waited
         return std::move(*cached);
@@ -151,7 +178,7 @@ grass::GrassSet load_grass(const scene::Scene& scene) {
         base::log_warning(fmt::format("{}: sets nothing; the default meadow is baked", base::printable(place.path.native(), 1024)));
     fs::remove(baker_note(set), ignored);
     fs::remove_all(set, ignored); // ours alone, and nothing in it can be trusted
-    bake(place.path, set);
+    bake(place.path, set, told);
     base::write_file_atomic(baker_note(set), baker());
     return grass::read_grass_set(set);
 }

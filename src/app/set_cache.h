@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/load_told.h"
 #include "grass/grass_set.h"
 #include "scene/scene.h"
 
@@ -10,6 +11,6 @@ namespace sward::app {
 /// its text; a cache that is damaged, or older than texgen itself, is baked again. The core build
 /// takes sets that are baked already. Throws Error, or AlreadyReported where texgen has told what
 /// went wrong.
-[[nodiscard]] grass::GrassSet load_grass(const scene::Scene& scene);
+[[nodiscard]] grass::GrassSet load_grass(const scene::Scene& scene, const LoadTold& told = {});
 
 } // namespace sward::app

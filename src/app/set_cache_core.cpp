@@ -6,7 +6,7 @@
 
 namespace sward::app {
 
-grass::GrassSet load_grass(const scene::Scene& scene) {
+grass::GrassSet load_grass(const scene::Scene& scene, const LoadTold&) {
     const SetPlace place = find_set(scene);
     if (place.is_preset)
         throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "grass.set",

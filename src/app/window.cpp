@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -17,24 +18,35 @@ namespace {
 constexpr double kStickDeadZone = 0.15; // worn sticks rest this far from the middle
 constexpr double kWaitSeconds = 0.2;
 
-// Since the last poll: GLFW tells these only by callback.
-double g_wheel = 0; // notches
-std::array<bool, kKeys.size()> g_pressed{};
+// GLFW tells these by callback alone, and of one window at a time.
+double g_wheel = 0; // notches since the last poll
+KeyLog g_keys;
+std::optional<std::filesystem::path> g_dropped;
 std::string g_glfw_error; // the last one, for the message
+
+static_assert(key::kSpace == GLFW_KEY_SPACE && key::kMinus == GLFW_KEY_MINUS && key::kPeriod == GLFW_KEY_PERIOD && key::kEqual == GLFW_KEY_EQUAL &&
+              key::kLeftBracket == GLFW_KEY_LEFT_BRACKET && key::kRightBracket == GLFW_KEY_RIGHT_BRACKET && key::kEscape == GLFW_KEY_ESCAPE &&
+              key::kBackspace == GLFW_KEY_BACKSPACE && key::kDelete == GLFW_KEY_DELETE && key::kPageUp == GLFW_KEY_PAGE_UP &&
+              key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME && key::kEnd == GLFW_KEY_END && key::kF11 == GLFW_KEY_F11 &&
+              key::kF12 == GLFW_KEY_F12 && key::kLeftShift == GLFW_KEY_LEFT_SHIFT && key::kLeftControl == GLFW_KEY_LEFT_CONTROL &&
+              key::kRightShift == GLFW_KEY_RIGHT_SHIFT && key::kRightControl == GLFW_KEY_RIGHT_CONTROL && 'A' == GLFW_KEY_A && '1' == GLFW_KEY_1);
 
 void on_error(int, const char* text) {
     g_glfw_error = text == nullptr ? "" : text;
 }
 
-/// Presses, not the state of keys: in a slow frame a key goes down and up again unseen.
 void on_key(GLFWwindow*, int key, int, int action, int mods) {
-    const auto code = [](char name) {
-        return name == 0x1b ? GLFW_KEY_ESCAPE : name == 0x7f ? GLFW_KEY_DELETE : static_cast<int>(name);
-    };
-    const bool ctrl = (mods & GLFW_MOD_CONTROL) != 0;
-    for (std::size_t i = 0; i < kKeys.size(); ++i)
-        if (action == GLFW_PRESS && key == code(kKeys[i].key) && ctrl == kKeys[i].ctrl)
-            g_pressed[i] = true;
+    g_keys.take({key, action != GLFW_RELEASE, action == GLFW_REPEAT, (mods & GLFW_MOD_CONTROL) != 0, glfwGetTime()});
+}
+
+void on_focus(GLFWwindow*, int focused) {
+    if (focused == GLFW_FALSE)
+        g_keys.release_all();
+}
+
+void on_drop(GLFWwindow*, int count, const char** paths) {
+    if (count > 0)
+        g_dropped = paths[count - 1];
 }
 
 void on_scroll(GLFWwindow*, double, double y) {
@@ -70,7 +82,7 @@ double axis(float value) {
 
 } // namespace
 
-Window::Window(const std::string& title, int width, int height, bool debug) {
+Window::Window(const std::string& title, const WindowPlace& place, bool debug) : title_(title) {
     if (!has_display())
         fail("neither DISPLAY nor WAYLAND_DISPLAY set");
     glfwSetErrorCallback(on_error);
@@ -83,23 +95,25 @@ Window::Window(const std::string& title, int width, int height, bool debug) {
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0); // the renderer draws into targets of its own
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
-    window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(place.width, place.height, title.c_str(), nullptr, nullptr);
     if (window_ == nullptr)
         fail("no window with OpenGL 4.5");
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     glfwSetKeyCallback(window_, on_key);
+    glfwSetWindowFocusCallback(window_, on_focus);
+    glfwSetDropCallback(window_, on_drop);
     glfwSetScrollCallback(window_, on_scroll);
-    glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE); // a tap within one slow frame moves
+    if (place.at)
+        glfwSetWindowPos(window_, place.at->x, place.at->y);
+    glfwShowWindow(window_);
+    if (place.at) // some window managers place a window as it is shown
+        glfwSetWindowPos(window_, place.at->x, place.at->y);
 }
 
 Window::~Window() {
     glfwDestroyWindow(window_);
     glfwTerminate();
-}
-
-void Window::show() {
-    glfwShowWindow(window_);
 }
 
 bool Window::closed() const {
@@ -121,33 +135,69 @@ void Window::swap() {
     glfwSwapBuffers(window_);
 }
 
+void Window::listen() const {
+    glfwPollEvents();
+}
+
+bool Window::asked_to_end() const {
+    const auto& presses = g_keys.presses();
+    return closed() || std::any_of(presses.begin(), presses.end(), [](const Press& press) { return press.action == Action::kQuit; });
+}
+
+void Window::forget_keys() {
+    g_keys.clear(glfwGetTime());
+}
+
+std::optional<std::filesystem::path> Window::take_dropped() {
+    return std::exchange(g_dropped, {});
+}
+
+void Window::set_title(const std::string& title) {
+    if (title == title_)
+        return;
+    title_ = title;
+    glfwSetWindowTitle(window_, title.c_str());
+}
+
+void Window::toggle_full_screen() {
+    if (glfwGetWindowMonitor(window_) != nullptr) {
+        glfwSetWindowMonitor(window_, nullptr, in_window_.x, in_window_.y, in_window_.z, in_window_.w, 0);
+        return;
+    }
+    glfwGetWindowPos(window_, &in_window_.x, &in_window_.y);
+    glfwGetWindowSize(window_, &in_window_.z, &in_window_.w);
+    // The monitor that holds the window's middle.
+    int count = 0;
+    GLFWmonitor** const monitors = glfwGetMonitors(&count);
+    const glm::ivec2 middle{in_window_.x + in_window_.z / 2, in_window_.y + in_window_.w / 2};
+    GLFWmonitor* chosen = glfwGetPrimaryMonitor();
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 at{0};
+        glfwGetMonitorPos(monitors[i], &at.x, &at.y);
+        const GLFWvidmode* const mode = glfwGetVideoMode(monitors[i]);
+        if (mode != nullptr && middle.x >= at.x && middle.y >= at.y && middle.x < at.x + mode->width && middle.y < at.y + mode->height)
+            chosen = monitors[i];
+    }
+    const GLFWvidmode* const mode = chosen == nullptr ? nullptr : glfwGetVideoMode(chosen);
+    if (mode != nullptr)
+        glfwSetWindowMonitor(window_, chosen, 0, 0, mode->width, mode->height, mode->refreshRate);
+    glfwSwapInterval(1); // some drivers forget it
+}
+
 Input Window::poll(bool panel_has_mouse, bool panel_has_keyboard) {
     glfwPollEvents();
+    const double now = glfwGetTime();
     Input input;
-    if (!panel_has_keyboard)
-        input.pressed = g_pressed;
-    g_pressed = {};
-    if (!panel_has_keyboard)
-        read_keyboard(input);
+    if (!panel_has_keyboard) {
+        input.presses = g_keys.presses();
+        input.move = g_keys.motion(now);
+        input.fast = g_keys.shift(now);
+    }
+    g_keys.clear(now);
     read_mouse(input, panel_has_mouse);
     read_gamepad(input);
     input.move = glm::clamp(input.move, -1.0, 1.0);
     return input;
-}
-
-void Window::read_keyboard(Input& input) const {
-    const auto pair = [&](int minus, int plus) {
-        return static_cast<double>(glfwGetKey(window_, plus) == GLFW_PRESS) -
-               static_cast<double>(glfwGetKey(window_, minus) == GLFW_PRESS);
-    };
-    input.move = {pair(GLFW_KEY_A, GLFW_KEY_D), pair(GLFW_KEY_Q, GLFW_KEY_E),
-                  pair(GLFW_KEY_S, GLFW_KEY_W)};
-    // Ctrl makes commands of letters: saving must not fly backwards. Asked after the letters, so that none of them sticks.
-    if (glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-        glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS)
-        input.move = {0, 0, 0};
-    input.fast = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
-                 glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
 void Window::read_mouse(Input& input, bool panel_has_mouse) {

@@ -48,7 +48,12 @@ std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     return meshes;
 }
 
-render::World load_world(const scene::Scene& scene) {
+render::World load_world(const scene::Scene& scene, const LoadTold& told) {
+    const auto tell = [&](std::string_view what) {
+        if (told)
+            told(what, {});
+    };
+    tell("meshes");
     // Quick to refuse first: a bake may take minutes.
     render::World world;
     world.scene = scene;
@@ -58,14 +63,16 @@ render::World load_world(const scene::Scene& scene) {
         world.surface = load_mesh(scene.terrain.surface); // its grass is placed
         scene::settle_places(world.scene, {});
         if (!scene.surface_grass.set.empty())
-            world.grass = load_grass(scene);
+            world.grass = load_grass(scene, told);
         return world;
     }
+    tell("elevation");
     world.elevation = load_elevation(scene.terrain);
     scene::settle_places(world.scene, place_on_earth(world.elevation));
+    tell("mask");
     if (!scene.terrain.mask.empty())
         world.mask = load_mask(scene.terrain, world.elevation);
-    world.grass = load_grass(scene);
+    world.grass = load_grass(scene, told);
     return world;
 }
 

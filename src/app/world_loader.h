@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "app/load_told.h"
 #include "app/options.h"
 #include "render/world.h"
 
@@ -19,6 +20,6 @@ void settle_paths(scene::Scene& scene);
 /// The meshes of the wind's obstacles and of objects, each once. Throws Error.
 [[nodiscard]] std::map<std::filesystem::path, scene::Mesh> load_meshes(const scene::Scene& scene);
 /// Every file that the scene names: elevation, mask, grass set, or the mesh that stands for them. Throws Error, or AlreadyReported.
-[[nodiscard]] render::World load_world(const scene::Scene& scene);
+[[nodiscard]] render::World load_world(const scene::Scene& scene, const LoadTold& told = {});
 
 } // namespace sward::app

@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "base/end_at_once.h"
 #include "base/file.h"
 #include "base/pending_registry.h"
 
@@ -58,6 +59,11 @@ void wait_for_signal() {
 }
 
 } // namespace
+
+void end_at_once(int code) {
+    remove_all_pending();
+    ::_exit(code);
+}
 
 void install_signal_cleanup() {
     static std::atomic<bool> installed{false};

@@ -2,10 +2,25 @@
 #include "gl/pass.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <epoxy/gl.h>
 
+#include "gl/breath.h"
+
 namespace sward::gl {
+
+namespace {
+std::function<void()> g_breath;
+} // namespace
+
+void set_breath(std::function<void()> breath) { g_breath = std::move(breath); }
+
+void breathe() {
+    if (g_breath) {
+        g_breath();
+    }
+}
 
 PassTimers::~PassTimers() { glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data()); }
 
@@ -42,6 +57,7 @@ std::vector<PassTimers::Row> PassTimers::rows() {
 
 PassScope::PassScope(PassTimers& timers, const char* name)
     : timers_(timers), entry_(timers.entries_.size()) {
+    breathe();
     if (timers_.wait_) {
         glFinish();
     }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "gl/breath.h"
 #include "gl/shader_source.h"
 
 namespace sward::gl {
@@ -58,6 +59,7 @@ GLuint compile(const std::filesystem::path& path, const std::vector<std::string>
 
 GLuint build(const std::string& name, const std::vector<std::filesystem::path>& stages,
              const std::vector<std::string>& defines) {
+    breathe(); // a driver may take seconds for each
     const GLuint program = glCreateProgram();
     try {
         for (const auto& stage : stages) {

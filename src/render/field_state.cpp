@@ -161,7 +161,9 @@ double FieldState::away_from_eyes(glm::dvec3 place) const {
 }
 
 void FieldState::follow_light(const shared::Light& light, const shared::WindField& field) {
-    if (!light_followed_) {
+    if (light_at_once) {
+        march_light_.update(light, field);
+    } else if (!light_followed_) {
         march_light_.follow(light, field);
         light_followed_ = true;
     }

@@ -95,6 +95,7 @@ struct FieldState {
     double mean_blade_width_m = 0;
     const ViewState* counted = nullptr; ///< the view drawn last: the passes' counters are its
     int reloads = 0;                    ///< of the shaders that clipmaps share
+    bool light_at_once = false;         ///< a change of light is followed whole by the next picture: none then depends on how many were drawn before
 
 private:
     [[nodiscard]] blades::LivingBlades* wake(const SimulationSettings& settings, int eyes);

@@ -114,6 +114,27 @@ class Outputs(CliCase):
             self.assertEqual(result.code, 5, arguments)
             self.assertEqual(len(result.err.splitlines()), 1, result.err)
 
+    def test_raw_pictures_on_stdout(self):
+        self.refuse_output(2, ["--output", "--format"], "-")
+        self.refuse_output(2, ["--output", "--format"], "out.png", "--format", "rgb24")
+        self.refuse_output(2, ["--format", "rgb24"], "-", "--format", "rgb48")
+        self.refuse_output(2, ["--aov"], "-", "--format", "rgb24", "--aov", "depth")
+        raw = lambda target, *more: sward_cli.run("/bin/sh", "-c", f'"$0" "$@" > {target}', sward_cli.BIN / "sward", "render", "scene.toml", "-o", "-",
+                                                  "--format", "rgb24", "--size", SIZE, "--path", "roll", *more, cwd=self.dir)
+        result = raw("two.rgb", "--frames", "0:1")
+        self.assertEqual(result.code, 0, result.err)
+        self.assertIn("frames: 100 %", result.err, "its progress is on stderr")
+        self.assertEqual(raw("one.rgb").code, 0)
+        one, two = ((self.dir / name).read_bytes() for name in ("one.rgb", "two.rgb"))
+        self.assertEqual(len(one), 64 * 36 * 3)
+        self.assertEqual(len(two), 2 * len(one))
+        self.assertTrue(two.startswith(one))
+        self.assertNotEqual(two[len(one):], one)
+        self.assertGreater(one[2], one[-1], "blue above, from the top")
+        full = raw("/dev/full")
+        self.assertEqual(full.code, 5, full.err)
+        self.assertIn("stdout", full.err)
+
     def test_texgen_full_disk(self):
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (8192, 8192))

@@ -8,11 +8,14 @@ import signal
 import struct
 import subprocess
 import threading
+import time
 
 import sward_cli
 from sward_cli import CliCase, environment
 
 WIDTH, HEIGHT = 480, 270
+F11, F12, ESCAPE = chr(0xffc8), chr(0xffc9), chr(0xff1b)
+BAKE = sward_cli.TINY_PRESET.replace("far_rays = 1024", "far_rays = 1048576")  # a minute and more
 POSE = re.compile(r"^-?[\d.]+,-?[\d.]+,-?[\d.]+,-?[\d.]+,-?[\d.]+$", re.MULTILINE)
 
 
@@ -72,6 +75,13 @@ class Display:
                             ctypes.byref(parent), ctypes.byref(children), ctypes.byref(count))
         return [children[i] for i in range(count.value)]
 
+    def geometry(self, window):
+        """x, y, width, height of a window on the screen."""
+        root = ctypes.c_ulong()
+        numbers = [ctypes.c_int(), ctypes.c_int(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint()]
+        self.x11.XGetGeometry(self.connection, ctypes.c_ulong(window), ctypes.byref(root), *map(ctypes.byref, numbers))
+        return tuple(number.value for number in numbers[:4])
+
     def resize(self, window, width, height):
         self.x11.XResizeWindow(self.connection, ctypes.c_ulong(window), width, height)
         self.x11.XSync(self.connection, 0)
@@ -120,10 +130,11 @@ class View(CliCase):
         screen.mkdir()
         self.display = Display(screen)
         self.addCleanup(self.display.close)
-        self.env = environment(DISPLAY=self.display.name, EGL_PLATFORM=None)
+        self.env = environment(DISPLAY=self.display.name, EGL_PLATFORM=None, XDG_STATE_HOME=self.dir / "state")
 
     def view(self, *arguments):
-        command = [str(sward_cli.BIN / "sward"), "view", "scene.toml", "--size", f"{WIDTH}x{HEIGHT}", *arguments]
+        size = () if "--window" in arguments else ("--size", f"{WIDTH}x{HEIGHT}")
+        command = [str(sward_cli.BIN / "sward"), "view", "scene.toml", *size, *arguments]
         child = subprocess.Popen(command, cwd=self.dir, env=self.env, stdout=subprocess.PIPE,
                                  stderr=subprocess.PIPE, text=True)
         self.addCleanup(child.communicate)
@@ -155,11 +166,12 @@ class View(CliCase):
         self.assertGreater(self.display.colours(), 100)
         for width, height in ((200, 100), (1, 1), (WIDTH, HEIGHT), (3000, 20), (300, 200)):
             self.display.resize(window, width, height)
-        for key in "fkhpr":
+        for key in "fkh" + F12 + "r":
             self.display.tap(window, key)
         self.wait_for(lambda: (self.dir / "sward-0001.png").exists(), child)
-        self.display.tap(window, "p")
+        self.display.tap(window, F12)
         self.wait_for(lambda: (self.dir / "sward-0002.png").exists(), child)
+        self.assertEqual((self.dir / "state/sward/recent-scenes").read_text(), f"{self.dir / 'scene.toml'}\n")
         child.send_signal(signal.SIGTERM)
         out, err = child.communicate(timeout=30)
         self.assertEqual(child.returncode, 143, err)
@@ -224,11 +236,128 @@ class View(CliCase):
         self.assertNotIn("error: ", err)
         self.assert_done(self.sward("render", "scene.toml", "-o", "out.png", "--size", "32x18"))
 
+    def shot(self, child, window, number):
+        """The bytes of the next screenshot."""
+        self.display.tap(window, F12)
+        file = self.dir / f"sward-{number:04}.png"
+        self.wait_for(file.exists, child)
+        return file.read_bytes()
+
+    def test_cockpit(self):
+        """Time stands and goes a step, the day goes on, cameras have keys; the window is where it should be."""
+        self.scene(sward_cli.SCENE.replace("position = [0, 1.7, 0]", "position = [0, 1.7, 0]\nyaw_deg = 90\npitch_deg = -20\n[camera.aloft]\nposition = [5, 40, 6]"))
+        child = self.view("--window", "160x90+40+30", "--fixed-timestep", "0.1", "--samples", "1")
+        self.wait_for(lambda: self.display.colours() > 100, child)
+        window = self.display.windows()[-1]
+        self.assertEqual(self.display.geometry(window), (40, 30, 160, 90))
+        self.assertEqual(set(self.display.pixels()[:WIDTH * 30]), {0}, "nothing above it")
+        self.display.tap(window, " ")
+        still = [self.shot(child, window, number) for number in (1, 2)]
+        self.assertEqual(still[0], still[1], "time stands")
+        for key in "..":
+            self.display.tap(window, key)
+        stepped = [self.shot(child, window, number) for number in (3, 4)]
+        self.assertNotEqual(stepped[0], still[1], "a step of time")
+        self.assertEqual(stepped[0], stepped[1], "and it stands again")
+        for key in "]]]]":
+            self.display.tap(window, key)
+        self.assertNotEqual(self.shot(child, window, 5), stepped[1], "an hour later the sun is elsewhere")
+        self.display.tap(window, "p")
+        self.assertNotEqual(self.shot(child, window, 6), self.shot(child, window, 7), "time goes on")
+        for key in "1k2k9k":  # by name: aloft, road; the ninth is none
+            self.display.tap(window, key)
+        self.display.tap(window, F11)
+        self.wait_for(lambda: self.display.geometry(window) == (0, 0, WIDTH, HEIGHT), child)
+        self.display.tap(window, F11)
+        self.wait_for(lambda: self.display.geometry(window) == (40, 30, 160, 90), child)
+        self.display.tap(window, ESCAPE)
+        out, err = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0, err)
+        poses = [[float(n) for n in line.split(",")] for line in out.splitlines()]
+        self.assertEqual(poses, [[5, 40, 6, 0, 0], [0, 1.7, 0, 90, -20], [0, 1.7, 0, 90, -20]])
+        self.assertNotIn("error: ", err)
+
+    def test_window_answers_while_a_set_is_baked(self):
+        self.scene(sward_cli.SCENE.replace('"set"', '"slow.toml"'))
+        (self.dir / "slow.toml").write_text(BAKE)
+        self.env["XDG_CACHE_HOME"] = str(self.dir / "cache")
+        child = self.view()
+        baking = lambda: list((self.dir / "cache").rglob(".sward-*"))
+        self.wait_for(lambda: self.display.windows() and baking() and self.display.has_panel(), child)
+        before = self.display.pixels()
+        self.wait_for(lambda: self.display.pixels() != before, child)  # it says that it goes on
+        self.display.tap(self.display.windows()[-1], ESCAPE)
+        _, err = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0, err)
+        end = time.monotonic() + 60
+        while baking() and time.monotonic() < end:  # texgen was told to end, and takes its temporaries along
+            time.sleep(0.05)
+        self.assertEqual(baking(), [])
+
+    def test_a_kept_flight_is_the_same_at_any_rate(self):
+        """Flown with the keyboard, kept, drawn again at 30 and at 144 pictures a second, and in the viewer."""
+        child = self.view("--window", "64x36", "--record", "flight.rec", "--fixed-timestep", "1/45", "--samples", "1")
+        self.wait_for(lambda: self.display.colours() > 100, child)
+        window = self.display.windows()[-1]
+        self.display.key(window, "w", True)
+        steps = lambda: (self.dir / "flight.rec").read_text().count("\nstep ")
+        self.wait_for(lambda: steps() >= 20, child)
+        self.display.tap(window, "]")
+        self.display.key(window, "w", False)
+        self.wait_for(lambda: steps() >= 45, child)
+        self.display.tap(window, ESCAPE)
+        _, err = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0, err)
+        lines = [line.split() for line in (self.dir / "flight.rec").read_text().splitlines()]
+        flown = [line for line in lines if line[0] == "step"]
+        self.assertLess(float(flown[-1][3]), float(flown[0][3]) - 0.5, "it has flown north")
+        self.assertEqual(len([line for line in lines if line[0] == "sun"]), 1)
+        for rate in (30, 144):
+            self.assert_done(self.render("--replay", "flight.rec", "-o", f"{rate}-%d.png", "--fixed-timestep", f"1/{rate}", "--time", "0.25",
+                                         "--frames", f"0:{rate // 6}", "--samples", "1"))
+        pictures = [[(self.dir / f"{rate}-{rate // 6 * i}.png").read_bytes() for i in range(2)] for rate in (30, 144)]
+        self.assertEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[0][0], pictures[0][1])
+        # The viewer, at the end of it.
+        self.assert_done(self.render("--replay", "flight.rec", "--time", str((len(flown) - 1) / 60), "--frames", "0:0", "-o", "end-%d.png", "--samples", "1"))
+        child = self.view("--window", "64x36", "--replay", "flight.rec", "--fixed-timestep", "0.25", "--samples", "1")
+        self.wait_for(lambda: self.display.colours() > 100, child)
+        window = self.display.windows()[-1]
+        ends = [self.shot(child, window, 1)]
+        while len(ends) < 2 or ends[-1] != ends[-2]:
+            ends.append(self.shot(child, window, len(ends) + 1))
+        self.assertEqual(ends[-1], (self.dir / "end-0.png").read_bytes())
+        self.display.tap(window, ESCAPE)
+        child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0)
+
+    def test_bad_values(self):
+        (self.dir / "torn.rec").write_text("sward-record 1\nstep 1 2\n")
+        (self.dir / "none.rec").mkdir()
+        for code, pieces, arguments in (
+                (2, ["--window", "800", "WIDTHxHEIGHT"], ["--window", "800"]),
+                (2, ["--window", "WIDTHxHEIGHT+X+Y"], ["--window", "80x60+1"]),
+                (4, ["--window", "16384"], ["--window", "99999x60"]),
+                (2, ["--window"], ["--window", "80x60", "--size", "80x60"]),
+                (2, ["--replay"], ["--replay", "a", "--record", "b"]),
+                (2, ["--fixed-timestep", "fraction"], ["--fixed-timestep", "1/0"]),
+                (3, ["torn.rec:2", "words"], ["--replay", "torn.rec"]),
+                (5, ["missing.rec"], ["--replay", "missing.rec"]),
+                (5, ["none.rec"], ["--record", "none.rec"]),
+                (5, ["nowhere"], ["--record", "nowhere/flight.rec"]),
+                (5, ["height2.tif"], ["height2.tif"])):
+            with self.subTest(arguments):
+                scene = [] if arguments[0].endswith(".tif") else ["scene.toml"]
+                result = self.sward("view", *scene, *arguments, env=self.env)
+                self.assertEqual(result.code, code, result.err)
+                for piece in pieces:
+                    self.assertIn(piece, result.err)
+                self.assertEqual(len(result.err.splitlines()), 1, result.err)
+
     def test_escape(self):
         child = self.view()
         self.wait_for(lambda: self.display.colours() > 100, child)
-        escape = chr(0xff1b)
-        self.display.tap(self.display.windows()[-1], escape)
+        self.display.tap(self.display.windows()[-1], ESCAPE)
         child.communicate(timeout=30)
         self.assertEqual(child.returncode, 0)
 
