@@ -16,6 +16,7 @@ namespace sward::app {
 namespace {
 
 constexpr double kSlopeStep_m = 0.5; // to both sides: the finest posts
+constexpr double kLongPicture_s = 1; // in which the socket may have run over: what it holds then is old, and says nothing of now
 
 double clock_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -32,8 +33,10 @@ public:
             if (packet != feed::Packet::kTaken && packet != feed::Packet::kDoubled)
                 last_refused_ = packet;
         });
+        const bool asleep = now - now_ > kLongPicture_s;
         now_ = now;
-        tell();
+        if (!asleep)
+            tell();
         const std::optional<feed::FeedPose> at = track_.pose(now);
         if (!at)
             return;
