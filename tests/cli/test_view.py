@@ -322,7 +322,7 @@ class View(CliCase):
         self.wait_for(lambda: steps() >= 20, child)
         self.display.tap(window, "]")
         self.display.key(window, "w", False)
-        self.wait_for(lambda: steps() >= 45, child)
+        self.wait_for(lambda: steps() >= 100, child)  # it is flushed by 60
         self.display.tap(window, ESCAPE)
         _, err = child.communicate(timeout=60)
         self.assertEqual(child.returncode, 0, err)
