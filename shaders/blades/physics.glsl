@@ -59,7 +59,7 @@ vec2 physics_wind(vec2 xz) {
     vec2 wind = wind_of(step_wind, xz);
 #ifndef SURFACE
     if (has_tracks()) {
-        wind = sway_wind(wind, rules.time.z > 0.0 ? rules.time.z : frame.wind.mean.w, vec2(0.0), track_at(xz, 0.0).zw);
+        wind = sway_wind(wind, rules.time.z > 0.0 ? rules.time.z : frame.wind.mean.w, vec2(0.0), sway_pressed(track_at(xz, 0.0)));
     }
 #endif
     return wind;

@@ -43,18 +43,27 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
     pose.from_eye = distance(pose.root, frame.lod_eye.xyz);
     pose.v1 = blade.v1.xyz;
     pose.v2 = blade.v2.xyz;
-    pose.sway = sway_at(pose.root.xz, 0.0);
+    pose.sway = sway_at(pose.root.xz);
     vec2 wind = pose.sway.wind;
     float shell = pose_share(blade.root.z, pose.from_eye, frame.pose_band.xy);
     pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), wind);
+    vec2 ahead = track_ahead(pose.root.xz, 0.0, 1.0);
+    if (dot(ahead, ahead) > 0.0) {
+        vec3 tip1 = blade.v1.xyz;
+        vec3 tip2 = blade.v2.xyz;
+        pose_blade(tip1, tip2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), sway_tip(pose.root.xz, pose.sway, ahead));
+        pose.v1 = mix(pose.v1, tip1, 0.5);
+        pose.v2 = tip2;
+        keep_length(pose.v1, pose.v2, blade.shape.y);
+    }
     pose.simulated = live(which, blade, pose.root, pose.v1, pose.v2);
-    float lying = lying_height(pose.sway.pressed);
+    float lying = lying_height(pose.sway.lying);
     if (lying < 1.0) { // after contacts and wind: what lies is lower, in every tier by the same factor
         pose.v1.y *= lying;
         pose.v2.y *= lying;
     }
     // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * (1.0 - min(length(pose.sway.pressed), 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
+    float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
     vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
     pose.facing = blade.shape.x + flutter.z;

@@ -6,18 +6,32 @@
 
 // What every tier bends by.
 struct Sway {
-    vec2 wind;    // that would bend it as wind and track do (m/s)
-    vec2 pressed; // stems that lie: along which way, how many of them
+    vec2 wind;      // that would bend it as wind and track do (m/s)
+    vec2 pressed;   // stems that lie: along which way, how many of them; of a footprint the mean
+    float lying;    // share of stems that lie, whichever way
+    float aligned; // how much of the bend's way is left in the mean over a footprint; 1 of a blade
 };
 
-// `width`: of what the answer stands for (m).
-Sway sway_at(vec2 xz, float width) {
+// A blade's.
+Sway sway_at(vec2 xz) {
     vec2 wind = wind_at(xz);
     if (!has_tracks()) {
-        return Sway(wind, vec2(0.0));
+        return Sway(wind, vec2(0.0), 0.0, 1.0);
     }
-    vec4 track = track_at(xz, width);
-    return Sway(sway_wind(wind, frame.wind.mean.w, track.xy, track.zw), track.zw);
+    TrackSeen track = track_at(xz, 0.0);
+    vec2 pressed = sway_pressed(track);
+    return Sway(sway_wind(wind, frame.wind.mean.w, track.theta, pressed), pressed, track.lying, 1.0);
+}
+
+// What bends its tip, whose bend comes from farther ahead (C3).
+vec2 sway_tip(vec2 xz, Sway root, vec2 ahead) {
+    return sway_wind(wind_at(xz), frame.wind.mean.w, track_at(xz + ahead, 0.0).theta, root.pressed);
+}
+
+// A footprint's, from the wind there.
+Sway sway_of(vec2 wind, TrackSeen track) {
+    SwayMean mean = sway_mean(wind, frame.wind.mean.w, track);
+    return Sway(mean.wind, track.pressed, track.lying, mean.aligned);
 }
 
 // canopy_sway for the set's first species, sun and eye; x, z of where the bend turns an upright blade at kLeanHeight.
@@ -33,7 +47,24 @@ vec4 sway_at(vec3 ground, vec2 wind) {
 vec4 sway_at(vec3 ground, Sway sway) {
     vec4 light = sway_at(ground, sway.wind);
     if (has_tracks()) {
-        light.x *= lying_light(sway.pressed, normalize(frame.eye.xyz - ground));
+        light.x *= lying_light(sway.pressed, sway.lying, normalize(frame.eye.xyz - ground));
     }
+    return light;
+}
+
+// And of a footprint: the mean over the ways that its stems lie.
+vec4 sway_over(vec3 ground, vec2 wind, TrackSeen track) {
+    vec4 light = vec4(0.0);
+    if (sway_is_even(track)) {
+        light = sway_at(ground, sway_wind(wind, frame.wind.mean.w, track.theta, sway_pressed(track)));
+    } else {
+        for (int n = 0; n < kSwayWays; ++n) {
+            vec3 way = sway_way(track, n);
+            if (way.z > 0.01) {
+                light += way.z * sway_at(ground, sway_wind(wind, frame.wind.mean.w, track.theta, way.xy * track.lying));
+            }
+        }
+    }
+    light.x *= lying_light(track.pressed, track.lying, normalize(frame.eye.xyz - ground));
     return light;
 }

@@ -1,30 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only way any shader learns of tracks. Anchor-relative xz in; theta and what lies pressed out (shared/track.h).
+// The only way any shader learns of tracks. Anchor-relative xz in; what bends and lies there out (shared/track_seen.h).
 #include "lib/frame.glsl"
 #include "shared/bindings.h"
+#include "shared/track_seen.h"
 
-layout(binding = TEX_TRACK_SHOWN) uniform samplerBuffer track_shown;
+layout(binding = TEX_TRACK_BENDS) uniform samplerBuffer track_bends;
+layout(binding = TEX_TRACK_SHOWN) uniform usamplerBuffer track_shown;
 layout(binding = TEX_TRACK_TABLE) uniform isamplerBuffer track_table;
 
 bool has_tracks() {
     return frame.tracks.page.z > 0;
 }
 
-// Slot of a page; -1: it has none.
-int track_slot(ivec2 page) {
+// Slot of a page and whether something moves in it; -1: it has none.
+ivec2 track_slot(ivec2 page) {
     int at = track_hash(page) & frame.tracks.page.z;
     for (int n = 0; n < 64; ++n) {
         ivec4 entry = texelFetch(track_table, at);
         if (entry.z < 0 || entry.xy == page) {
-            return entry.z;
+            return entry.zw;
         }
         at = (at + 1) & frame.tracks.page.z;
     }
-    return -1;
+    return ivec2(-1, 0);
+}
+
+// A cell's texel in the pool of what moves; -1: at rest.
+int track_moving(int slot, ivec2 cell) {
+    int block = track_block_of(cell);
+    int place = texelFetch(track_table, frame.tracks.page.z + 1 + slot * (kTrackBlocks / 4) + block / 4)[block % 4];
+    return place < 0 ? -1 : place * kTrackBlock * kTrackBlock + track_in_block(cell);
+}
+
+TrackSeen track_cell(ivec2 slot, ivec2 cell) {
+    int moving = slot.y != 0 ? track_moving(slot.x, cell) : -1;
+    vec2 theta = moving < 0 ? vec2(0.0) : texelFetch(track_bends, moving).xy;
+    return track_seen(theta, track_unpack(texelFetch(track_shown, slot.x * kTrackWords + cell.y * kTrackCells + cell.x).x));
 }
 
 // A cell of a level, counted from the anchor page's north-west corner.
-vec4 track_texel(ivec2 cell, int level, inout ivec2 page, inout int slot) {
+TrackSeen track_texel(ivec2 cell, int level, inout ivec2 page, inout ivec2 slot) {
     int side = kTrackCells >> level;
     ivec2 own = ivec2(floor(vec2(cell) / float(side)));
     if (own != page) {
@@ -32,32 +47,83 @@ vec4 track_texel(ivec2 cell, int level, inout ivec2 page, inout int slot) {
         slot = track_slot(own + frame.tracks.page.xy);
     }
     ivec2 within = cell - own * side;
-    return slot < 0 ? vec4(0.0) : texelFetch(track_shown, slot * kTrackTexels + track_level_first(level) + within.y * side + within.x);
+    if (slot.x < 0) {
+        return track_nothing();
+    }
+    if (level == 0) {
+        return track_cell(slot, within);
+    }
+    int at = slot.x * kTrackWords + track_level_first(level) + 2 * (within.y * side + within.x);
+    return track_unpack_seen(uvec2(texelFetch(track_shown, at).x, texelFetch(track_shown, at + 1).x));
 }
 
-vec4 track_of_level(vec2 xz, int level) {
+TrackSeen track_of_level(vec2 xz, int level) {
     vec2 place = track_level_place(frame.tracks, xz, level);
     vec2 low = floor(place);
     vec2 part = place - low;
     ivec2 cell = ivec2(low);
     ivec2 page = ivec2(-1000000);
-    int slot = -1;
-    vec4 north = mix(track_texel(cell, level, page, slot), track_texel(cell + ivec2(1, 0), level, page, slot), part.x);
-    vec4 south = mix(track_texel(cell + ivec2(0, 1), level, page, slot), track_texel(cell + ivec2(1, 1), level, page, slot), part.x);
-    return mix(north, south, part.y);
+    ivec2 slot = ivec2(-1, 0);
+    TrackSeen north = track_mean(track_texel(cell, level, page, slot), track_texel(cell + ivec2(1, 0), level, page, slot), part.x);
+    TrackSeen south = track_mean(track_texel(cell + ivec2(0, 1), level, page, slot), track_texel(cell + ivec2(1, 1), level, page, slot), part.x);
+    return track_mean(north, south, part.y);
 }
 
-// theta, pressed; as means over `width` metres.
-vec4 track_at(vec2 xz, float width) {
+bool track_within(vec2 xz, float beyond) {
     vec4 bounds = frame.tracks.bounds;
-    if (!has_tracks() || xz.x < bounds.x || xz.y < bounds.y || xz.x > bounds.z || xz.y > bounds.w) {
-        return vec4(0.0);
+    return has_tracks() && xz.x >= bounds.x - beyond && xz.y >= bounds.y - beyond && xz.x <= bounds.z + beyond && xz.y <= bounds.w + beyond;
+}
+
+// What is seen over `width` metres around a place.
+TrackSeen track_at(vec2 xz, float width) {
+    if (!track_within(xz, 0.0)) {
+        return track_nothing();
     }
     float level = clamp(log2(max(width * frame.tracks.place.z, 1.0)), 0.0, float(kTrackLevels - 1));
     int fine = int(level);
-    vec4 found = track_of_level(xz, fine);
+    TrackSeen found = track_of_level(xz, fine);
     if (level > float(fine)) {
-        found = mix(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)), level - float(fine));
+        found = track_mean(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)), level - float(fine));
     }
-    return vec4(found.xy, found.zw * frame.tracks.place.w);
+    float left = frame.tracks.place.w;
+    found.pressed *= left;
+    found.axis *= left;
+    found.lying *= left;
+    return found;
+}
+
+// C3: how far ahead a part of the stem (`share`, 0 root .. 1 tip) has its bend from; nothing where all is at rest, or seen so coarsely that it is less
+// than a cell.
+vec2 track_ahead(vec2 xz, float width, float share) {
+    if (width * frame.tracks.place.z > 2.0 || !track_within(xz, 0.0)) {
+        return vec2(0.0);
+    }
+    ivec2 cell = ivec2(floor(track_level_place(frame.tracks, xz, 0) + 0.5));
+    ivec2 page = ivec2(floor(vec2(cell) / float(kTrackCells)));
+    ivec2 slot = track_slot(page + frame.tracks.page.xy);
+    if (slot.x < 0 || slot.y == 0) {
+        return vec2(0.0);
+    }
+    int at = track_moving(slot.x, cell - page * kTrackCells);
+    if (at < 0) {
+        return vec2(0.0);
+    }
+    vec4 bend = texelFetch(track_bends, at);
+    return track_delay(bend.xy, bend.zw, share, vec2(frame.tracks.page.w & 65535, frame.tracks.page.w >> 16) * 1e-3);
+}
+
+// Of a footprint that is longer than wide, as that of a ray low over the ground: `along`, its length, one way.
+const int kTrackTaps = 6;
+TrackSeen track_along(vec2 xz, float width, vec2 along) {
+    float run = length(along);
+    int taps = clamp(int(ceil(run / max(width, 1.0 / frame.tracks.place.z))), 1, kTrackTaps);
+    if (taps == 1 || !track_within(xz, 0.5 * run)) {
+        return track_at(xz, max(width, run));
+    }
+    TrackSeen found = track_nothing();
+    for (int n = 0; n < taps; ++n) {
+        TrackSeen one = track_at(xz + along * ((float(n) + 0.5) / float(taps) - 0.5), max(width, run / float(taps)));
+        found = track_mean(found, one, 1.0 / float(n + 1));
+    }
+    return found;
 }

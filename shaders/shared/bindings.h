@@ -78,12 +78,12 @@
 #define BIND_WIND_TOTALS 5     // float[]: mean and mean square of the ambient tile
 
 // Storage blocks of the tracks' passes, which run before the blades' physics.
-#define BIND_TRACK_BENDS 0     // vec4[]: theta, omega; a cell
+#define BIND_TRACK_BENDS 0     // vec4[]: theta, omega; a cell of a block that moves
 #define BIND_TRACK_CHANGES 1   // vec4[]: their changes in the last step
-#define BIND_TRACK_PRESSED 2   // vec2[]
-#define BIND_TRACK_PAGES 3     // TrackPage[]: what is stepped or shown
+#define BIND_TRACK_TABLE 2     // ivec4[]: the table of pages, then where each page's blocks are in the pool of what moves
+#define BIND_TRACK_WORK 3      // TrackBlock[]: what is stepped or shown
 #define BIND_TRACK_PRINTS 4    // TrackPrint[]: page by page
-#define BIND_TRACK_SHOWN 5     // uvec2[]: theta, pressed as half floats, a level after the other
+#define BIND_TRACK_SHOWN 5     // uint[]: kTrackWords a page: what lies pressed in its cells, then what coarser levels show
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0      // R32F array: height above the datum, a level a layer
@@ -113,8 +113,9 @@
 #define TEX_SECOND_AIR 24
 #define TEX_CANOPY_SAMPLES 27   // depth of the canopy's upper surface, a value a sample of the scene
 #define TEX_CANOPY_EXIT 25     // RGBA16F: length of a ray's way through a mesh's canopy and the height where it ends (m); the same of its second part
-#define TEX_TRACK_SHOWN 28     // RGBA16F buffer: bend and what is pressed, kTrackTexels a page
-#define TEX_TRACK_TABLE 29     // RGBA32I buffer: page x, z; its slot, -1: none; a hashed table
+#define TEX_TRACK_BENDS 14     // RGBA32F buffer: theta, omega of the blocks that move
+#define TEX_TRACK_SHOWN 28     // R32UI buffer: kTrackWords a page
+#define TEX_TRACK_TABLE 29     // RGBA32I buffer: page x, z; its slot, -1: none; 1 where something moves: a hashed table; then each slot's blocks
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list

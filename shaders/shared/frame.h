@@ -6,7 +6,7 @@
 #include "shared/grass_layout.h"
 #include "shared/lod.h"
 #include "shared/shading.h"
-#include "shared/track.h"
+#include "shared/track_field.h"
 #include "shared/types.h"
 #include "shared/wind.h"
 

@@ -6,23 +6,14 @@
 // `pressed` is the slow channel: where broken stems lie, and how much of them (0..1), as a vector along which they lie.
 #ifndef SWARD_SHARED_TRACK_H
 #define SWARD_SHARED_TRACK_H
-#include "shared/bend.h"
-#include "shared/types.h"
+#include "shared/track_field.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kTrackCells = 128;         // a side of a page
-SHARED_CONST int kTrackLevels = 6;          // of what is seen of it: 128 to 4 cells a side
-SHARED_CONST int kTrackTexels = 21840;      // of all levels
 SHARED_CONST float kTrackStep_s = 1.0f / 60.0f;
 SHARED_CONST float kMostBend = 1.0f;        // of theta
 SHARED_CONST float kLeastContact_m = 0.03f; // C4's hc is never less: omega stays finite under a wheel
 SHARED_CONST float kMostOmega = 200.0f;     // 1/s
-SHARED_CONST float kMostSwayBend = 0.97f;   // of wind and track together: bend_intensity nears 1 and never comes there
-SHARED_CONST float kLyingBend = 0.93f;      // of stems that lie
-SHARED_CONST float kLyingLoss = 0.6f;       // of their height, beside the bend
-SHARED_CONST float kLyingSheen = 0.45f;      // paler along the pass, darker against it
-
 // What all cells share in a step. 48 bytes.
 struct TrackRules {
     vec4 grid;  // cell (m); step (s); damping l of C2; restoring term k (1/s^2)
@@ -41,24 +32,15 @@ SHARED_CONST int kPrintBox = 0;    // its underside is flat
 SHARED_CONST int kPrintSphere = 1; // shape.y: radius
 SHARED_CONST int kPrintWheel = 2;  // rolls along its own z; shape.x: half of its width, shape.y: radius
 
-// A page that is stepped. 48 bytes.
-struct TrackPage {
-    ivec4 slot;   // its own; first print, prints; of a part of the page: its first cell x + 256 z, else unused
-    ivec4 beside; // slots to the west, east, north, south; -1: none
-    vec4 ground;  // its slope dy/dx, dy/dz; unused
+// A block that is stepped, or only pressed. 64 bytes.
+struct TrackBlock {
+    ivec4 page;   // slot of its page; first print, prints; its first cell x + 256 z in the page
+    ivec4 own;    // its place in the pool of what moves; unused
+    ivec4 beside; // places there of those to the west, east, north, south; -1: at rest
+    vec4 ground;  // slope dy/dx, dy/dz; unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(TrackRules) == 48 && sizeof(TrackPrint) == 64 && sizeof(TrackPage) == 48);
-#endif
-
-// Where track_at() finds its answer. 48 bytes.
-struct TrackField {
-    vec4 place;  // the anchor in its page x, z (m); 1 / cell (1/m); share of `pressed` that is left
-    ivec4 page;  // page of the anchor x, z; mask of the table of pages, 0 or less: no tracks; unused
-    vec4 bounds; // of all pages, anchor-relative: least x, z, most x, z (m)
-};
-#ifdef __cplusplus
-static_assert(sizeof(TrackField) == 48);
+static_assert(sizeof(TrackRules) == 48 && sizeof(TrackPrint) == 64 && sizeof(TrackBlock) == 64);
 #endif
 
 struct TrackCell {
@@ -258,61 +240,6 @@ SHARED_FN vec2 track_pressed(TrackRules rules, vec2 pressed, TrackContact contac
 // What is left of `pressed` after a time, as stems rise in their own: 1/e after `lasting`.
 SHARED_FN float track_left(float seconds, float lasting_s) {
     return exp(-seconds / lasting_s);
-}
-
-// Wind (m/s) that bends by an intensity: bend_intensity's inverse.
-SHARED_FN float bend_speed(float intensity, float response) {
-    float left = 1.0f - clamp(intensity, 0.0f, kMostSwayBend);
-    return sqrt(max(pow(left, -1.5f) - 1.0f, 0.0f)) / response;
-}
-
-// Wind and track as one: the wind that would bend the grass so. The bends add; grass that lies is out of the wind.
-SHARED_FN vec2 sway_wind(vec2 wind, float response, vec2 theta, vec2 pressed) {
-    float lying = min(length(pressed), 1.0f);
-    float bent = length(theta);
-    if (lying + bent < 1e-3f || response <= 0.0f) {
-        return wind;
-    }
-    float speed = length(wind);
-    vec2 blown = speed > 1e-4f ? wind * (bend_intensity(speed, response) / speed) : vec2(0.0f, 0.0f);
-    vec2 sum = blown * (1.0f - 0.85f * lying) + theta * (1.0f - 0.5f * lying) + pressed * (kLyingBend * min(1.0f, 1.0f / max(length(pressed), 1e-6f)));
-    float all = length(sum);
-    if (all < 1e-5f) {
-        return vec2(0.0f, 0.0f);
-    }
-    return sum * (bend_speed(all, response) / all);
-}
-
-// Factor on every height where stems lie: bent as far as B3 goes a canopy still keeps two thirds of its height.
-SHARED_FN float lying_height(vec2 pressed) {
-    return 1.0f - kLyingLoss * min(length(pressed), 1.0f);
-}
-
-// Light that comes back from grass that lies: stems that lie away from the eye show their whole length, paler; toward it their tips and the
-// gaps behind them, darker. Seen from straight above there is no along.
-SHARED_FN float lying_light(vec2 pressed, vec3 to_eye) {
-    float lying = length(pressed);
-    vec2 along = pressed * (min(lying, 1.0f) / max(lying, 1e-6f));
-    return 1.0f - kLyingSheen * dot(along, vec2(to_eye.x, to_eye.z));
-}
-
-// The four cells around a place of a level, and the place among them. `cells`: from the anchor page's north-west corner.
-SHARED_FN vec2 track_level_place(TrackField field, vec2 xz, int level) {
-    return (vec2(field.place.x, field.place.y) + xz) * (field.place.z * exp2(-float(level))) - vec2(0.5f, 0.5f);
-}
-
-// First texel of a level within a page: 128^2, 64^2, ...
-SHARED_FN int track_level_first(int level) {
-    int first = 0;
-    for (int l = 0; l < level; ++l) {
-        first += (kTrackCells >> l) * (kTrackCells >> l);
-    }
-    return first;
-}
-
-// Where the table of pages is looked into first.
-SHARED_FN int track_hash(ivec2 page) {
-    return int((uint(page.x) * 73856093u ^ uint(page.y) * 19349663u) & 0x7fffffffu);
 }
 
 SHARED_END

@@ -62,6 +62,6 @@ Entry entry_at(View view, float distance_m) {
     vec2 wind = wind_at(xz);
     vec3 ground = frame.eye.xyz + view.way * min(distance_m, kFarthest) - vec3(0.0, entry.height, 0.0);
     entry.air = vec4(wind, sway_at(ground, wind).xy);
-    entry.lying = 1.0;
+    entry.lying = entry.aligned = 1.0;
     return has_tracks() ? entry_on_track(view, entry) : entry;
 }

@@ -37,6 +37,7 @@ struct Entry {
     vec4 air;       // wind, canopy_sway
 #ifndef SURFACE
     float lying;    // factor on heights where stems lie (lying_height)
+    float aligned; // Sway's
 #endif
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
@@ -66,22 +67,31 @@ vec4 ground_under(vec2 xz) {
 // Tracks are finer than the vertices that the canopy's surface was drawn by, which know the wind alone: where stems lie, the ray goes on down
 // to what is left of the canopy, or comes to the side of what stands beside it.
 const int kTrackSteps = 4;
+const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of a long footprint is seen at once
 Entry entry_on_track(View view, Entry entry) {
     float canopy = frame.patch_grid.w;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
+    TrackSeen track = track_nothing();
     entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.mean.w).y;
+    vec3 at;
     for (int n = 0; n < kTrackSteps; ++n) {
-        vec3 at = frame.eye.xyz + view.way * min(entry.distance, kFarthest);
-        vec4 track = track_at(at.xz, entry.distance / (frame.eye.w * sqrt(max(fall, 0.1))));
-        if (dot(track, track) < 1e-6) {
-            entry.lying = 1.0;
+        at = frame.eye.xyz + view.way * min(entry.distance, kFarthest);
+        float width = entry.distance / frame.eye.w;
+        track = track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
+        entry.lying = lying_height(track.lying);
+        entry.aligned = 1.0;
+        if (dot(track.theta, track.theta) + track.lying < 1e-3) {
             entry.air = standing;
-            break;
+            return entry;
         }
-        Sway here = Sway(sway_wind(standing.xy, frame.wind.mean.w, track.xy, track.zw), track.zw);
-        entry.lying = lying_height(here.pressed);
-        entry.air = vec4(here.wind, sway_at(at - vec3(0.0, entry.height, 0.0), here).xy);
+        vec2 ahead = track_ahead(at.xz, width, kLeanHeight); // the canopy has one bend: that of the height which stands for it
+        if (dot(ahead, ahead) > 0.0) {
+            track.theta = track_at(at.xz + ahead, width).theta;
+        }
+        Sway here = sway_of(standing.xy, track);
+        entry.air.xy = here.wind;
+        entry.aligned = here.aligned;
         float down = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.mean.w).y);
         if (down < 0.02 * canopy || n == kTrackSteps - 1) {
             break;
@@ -90,6 +100,7 @@ Entry entry_on_track(View view, Entry entry) {
         entry.height -= down;
         entry.distance += down / fall;
     }
+    entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
     return entry;
 }
 
@@ -102,13 +113,13 @@ Entry entry_from_above(View view, ivec2 pixel) {
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
     }
-    Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0);
+    Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
     return has_tracks() && distance_m < kNever ? entry_on_track(view, entry) : entry;
 }
 
 Entry entry_of(View view, ivec2 pixel) {
     if (eye_place.x > 0.5) { // the eye stands in the canopy
-        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0);
+        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
     }
     return entry_from_above(view, pixel);
 }
@@ -129,6 +140,7 @@ MarchPath path_of(View view, Entry entry) {
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
     float lying = 1.0;
     if (has_tracks()) { // heights are counted as they were before the stems lay down
+        path.bend.xy *= entry.aligned;
         lying = entry.lying;
         height = min(entry.height / lying, path.bend.w);
         path.from.y = height;

@@ -54,7 +54,7 @@ void main() {
 
     float shade = sway.y; // of the grass over it
     if (has_tracks()) {   // which are finer than the vertices
-        shade = sway_at(world, sway_at(world.xz, distance_m / frame.eye.w)).y;
+        shade = sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.eye.w)).y;
     }
     vec3 soil_albedo = soil_colour(world.xz, ground, distance_m / frame.eye.w * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
     vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, shade)), soil_albedo, ground.normal, ground.density);

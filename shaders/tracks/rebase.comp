@@ -2,9 +2,7 @@
 // In: what lies pressed. Out: the same in units of the next epoch (C6 and what lasts).
 #include "tracks/cells.glsl"
 
-uniform float factor;
-
 void main() {
-    int own = cell_index(pages[gl_WorkGroupID.z].slot.x, ivec2(gl_GlobalInvocationID.xy));
-    pressed[own] *= factor;
+    int own = cell_word(blocks[gl_WorkGroupID.z].page.x, ivec2(gl_GlobalInvocationID.xy));
+    shown[own] = track_rebased(shown[own]);
 }

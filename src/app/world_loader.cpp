@@ -48,6 +48,13 @@ std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     return meshes;
 }
 
+/// What lies at time 0, by a mask: read as a density mask is, where it belongs on Earth or over the whole terrain.
+scene::DensityMask load_track_mask(const fs::path& mask, const scene::Heightfield& ground) {
+    scene::TerrainSpec spec;
+    spec.mask = mask;
+    return mask.empty() ? scene::DensityMask{} : load_mask(spec, ground);
+}
+
 render::World load_world(const scene::Scene& scene, const LoadTold& told) {
     const auto tell = [&](std::string_view what) {
         if (told)
@@ -72,6 +79,10 @@ render::World load_world(const scene::Scene& scene, const LoadTold& told) {
     tell("mask");
     if (!scene.terrain.mask.empty())
         world.mask = load_mask(scene.terrain, world.elevation);
+    if (scene.tracks) {
+        world.lying = load_track_mask(scene.tracks->mask, world.elevation);
+        world.lying_way = load_track_mask(scene.tracks->mask_way, world.elevation);
+    }
     world.grass = load_grass(scene, told);
     return world;
 }

@@ -10,6 +10,7 @@
 #include "blades/blade_twin.h"
 #include "render/pass_names.h"
 #include "shared/bindings.h"
+#include "tracks/track_mask.h"
 
 namespace sward::render {
 
@@ -82,6 +83,11 @@ FieldState::FieldState(World inputs)
         tracks = std::make_unique<tracks::Tracks>(world.scene, world.grass.canopy_m,
                                                   tracks::Tracks::Inputs{[this](double x, double z) { return surface.height(x, z); },
                                                                          [this](double then_s, double step_s) { return balls_of(colliders, then_s, step_s); }});
+        if (!world.scene.tracks->mask.empty()) {
+            const std::string name = base::printable(world.scene.tracks->mask.native());
+            tracks->begin_with(tracks::painted(*world.scene.tracks, {world.lying, world.lying_way, world.elevation.extent_m(), name}), name);
+            world.lying = world.lying_way = {};
+        }
     }
     free_texels(world.grass);
 }

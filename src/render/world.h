@@ -22,6 +22,7 @@ struct World {
     grass::GrassSet grass;   ///< empty where the scene stands on a mesh
     FarScheme far = FarScheme::kMarch; ///< whose textures are kept on the GPU, beside the march's
     scene::Mesh surface;     ///< terrain.surface; no triangles: a scene on elevation
+    scene::DensityMask lying, lying_way; ///< tracks.mask, tracks.mask_way; width 0: none
     std::map<std::filesystem::path, scene::Mesh> meshes; ///< those that the scene's obstacles and objects name, under its names
     std::map<std::filesystem::path, scene::SphereSet> spheres; ///< the meshes of objects that grass feels, packed; under the same names
 };

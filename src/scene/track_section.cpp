@@ -34,6 +34,24 @@ TrackFoot read_foot(TableReader& table, const std::map<std::string, Path>& paths
     return foot;
 }
 
+void read_track_mask(TableReader& table, TrackSpec& tracks) {
+    table.path("mask", tracks.mask);
+    table.path("mask_way", tracks.mask_way);
+    const bool way = table.number("mask_way_deg", tracks.mask_way_deg, {-360, 360, "degrees"});
+    const bool place = table.place("mask_place", tracks.mask_place);
+    std::vector<double> size;
+    if (table.numbers("mask_size_m", size, {{0.1, 1e6, "m"}, {0.1, 1e6, "m"}}))
+        tracks.mask_size_m = {size[0], size[1]};
+    if (place && size.empty())
+        throw table.error("mask_size_m", "nothing", "the mask's width and depth (m), beside mask_place");
+    if (!size.empty() && !place)
+        throw table.error("mask_place", "nothing", "the mask's middle, beside mask_size_m");
+    if (way && !tracks.mask_way.empty())
+        throw table.error("mask_way_deg", "mask_way beside it", "one of the two");
+    if (tracks.mask.empty() && (way || place || !tracks.mask_way.empty()))
+        throw table.error("mask", "nothing", "a picture of what lies, for its way and place");
+}
+
 } // namespace
 
 void read_tracks(TableReader table, const std::map<std::string, Path>& paths, TrackSpec& tracks) {
@@ -47,6 +65,7 @@ void read_tracks(TableReader table, const std::map<std::string, Path>& paths, Tr
     table.number("broken", tracks.broken, kShare);
     table.number("lasting_s", tracks.lasting_s, {1, 1e9, "s"});
     table.number("memory_mb", tracks.memory_mb, {0, 4096, "MB"});
+    read_track_mask(table, tracks);
     std::vector<TableReader> feet = table.tables("foot", kMostFeet);
     table.finish();
     // C2 is stable up to here; waves that mu would make faster are held there.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,11 @@ struct TrackSpec {
     double lasting_s = 21600;   ///< until 1/e of those is left
     double memory_mb = 64;      ///< of pages that are out of the pool
     std::vector<TrackFoot> feet;
+    std::filesystem::path mask;      ///< what lies at time 0: share of stems, 0..1; empty: nothing
+    std::filesystem::path mask_way;  ///< the way that they lie, 0..1 for 0 to 360 degrees; empty: mask_way_deg everywhere
+    double mask_way_deg = 0;         ///< as yaw: 0 north, positive to the east
+    glm::dvec2 mask_place{0, 0};     ///< its middle, world x, z
+    glm::dvec2 mask_size_m{0, 0};    ///< zero: where it says that it lies, else over the whole terrain
 };
 
 } // namespace sward::scene

@@ -7,7 +7,7 @@
 #include <zstd.h>
 
 #include "base/error.h"
-#include "shared/track.h"
+#include "shared/track_field.h"
 
 namespace sward::tracks {
 
@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kEffort = 3; // of zstd; a page of tyre tracks goes to some hundredths
 constexpr std::size_t kCells = std::size_t{shared::kTrackCells} * shared::kTrackCells;
+constexpr std::size_t kBlockCells = std::size_t{shared::kTrackBlock} * shared::kTrackBlock;
 
 template<class T> void append(std::vector<std::byte>& out, const std::vector<T>& items) {
     const auto* bytes = reinterpret_cast<const std::byte*>(items.data());
@@ -22,9 +23,8 @@ template<class T> void append(std::vector<std::byte>& out, const std::vector<T>&
 }
 
 template<class T> void cut(const std::vector<std::byte>& from, std::size_t& at, std::vector<T>& items) {
-    items.resize(kCells);
-    std::memcpy(items.data(), from.data() + at, kCells * sizeof(T));
-    at += kCells * sizeof(T);
+    std::memcpy(items.data(), from.data() + at, items.size() * sizeof(T));
+    at += items.size() * sizeof(T);
 }
 
 } // namespace
@@ -32,9 +32,10 @@ template<class T> void cut(const std::vector<std::byte>& from, std::size_t& at, 
 bool PageMemory::put(PageKey key, const PageContent& content) {
     std::vector<std::byte> plain;
     append(plain, content.pressed);
+    append(plain, content.moving);
     append(plain, content.bends);
     append(plain, content.changes);
-    Kept kept{{}, ++order_, content.epoch, content.busy_until, !content.bends.empty()};
+    Kept kept{{}, ++order_, content.epoch, content.moving.size()};
     kept.packed.resize(ZSTD_compressBound(plain.size()));
     const std::size_t size = ZSTD_compress(kept.packed.data(), kept.packed.size(), plain.data(), plain.size(), kEffort);
     if (ZSTD_isError(size)) {
@@ -60,20 +61,22 @@ std::optional<PageContent> PageMemory::look(PageKey key) const {
         return std::nullopt;
     }
     const Kept& kept = found->second;
-    std::vector<std::byte> plain(kCells * (sizeof(glm::vec2) + (kept.moves ? 2 * sizeof(glm::vec4) : 0)));
+    PageContent content;
+    content.epoch = kept.epoch;
+    content.pressed.resize(kCells);
+    content.moving.resize(kept.moving);
+    content.bends.resize(kept.moving / 2 * kBlockCells);
+    content.changes.resize(content.bends.size());
+    std::vector<std::byte> plain(kCells * sizeof(std::uint32_t) + kept.moving * sizeof(std::int64_t) + 2 * content.bends.size() * sizeof(glm::vec4));
     const std::size_t size = ZSTD_decompress(plain.data(), plain.size(), kept.packed.data(), kept.packed.size());
     if (ZSTD_isError(size) || size != plain.size()) {
         throw base::Error(base::ExitCode::kFailure, "tracks: a page's memory is damaged");
     }
-    PageContent content;
-    content.epoch = kept.epoch;
-    content.busy_until = kept.busy_until;
     std::size_t at = 0;
     cut(plain, at, content.pressed);
-    if (kept.moves) {
-        cut(plain, at, content.bends);
-        cut(plain, at, content.changes);
-    }
+    cut(plain, at, content.moving);
+    cut(plain, at, content.bends);
+    cut(plain, at, content.changes);
     return content;
 }
 

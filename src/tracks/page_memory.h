@@ -14,10 +14,10 @@ namespace sward::tracks {
 
 /// All that a page holds.
 struct PageContent {
-    std::vector<glm::vec4> bends, changes; ///< theta, omega; their changes. Empty: all at rest
-    std::vector<glm::vec2> pressed;        ///< in units of `epoch`
+    std::vector<std::uint32_t> pressed;    ///< words of track_pack(), in units of `epoch`
+    std::vector<std::int64_t> moving;      ///< blocks that move: number in the page, last step that moves it
+    std::vector<glm::vec4> bends, changes; ///< of their cells: theta, omega; their changes
     std::int64_t epoch = 0;
-    std::int64_t busy_until = -1;
 };
 
 /// Pages that are out of the pool, as they were, bit for bit: compressed without loss, on a budget. Over it those that were put first go.
@@ -41,8 +41,8 @@ private:
     struct Kept {
         std::vector<std::byte> packed;
         std::uint64_t order = 0;
-        std::int64_t epoch = 0, busy_until = -1;
-        bool moves = false;
+        std::int64_t epoch = 0;
+        std::size_t moving = 0; ///< numbers in PageContent::moving
     };
     std::size_t most_bytes_, bytes_ = 0, lost_ = 0;
     std::uint64_t order_ = 0;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "shared/track.h"
-
 namespace sward::tracks {
 
 int Pages::slot_of(PageKey key) const {
@@ -20,7 +18,9 @@ int Pages::open(PageKey key) {
         return -1;
     }
     const int slot = static_cast<int>(free - slots_.begin());
-    *free = Page{true, key, -1, {0, 0}, false};
+    *free = Page{};
+    free->used = true;
+    free->key = key;
     slot_of_[{key.y, key.x}] = slot;
     return slot;
 }
@@ -85,7 +85,14 @@ std::vector<glm::ivec4> Pages::table() const {
         while (out[static_cast<std::size_t>(at)].z >= 0) {
             at = (at + 1) & mask;
         }
-        out[static_cast<std::size_t>(at)] = {page.x, page.y, slot, 0};
+        const auto& blocks = slots_[static_cast<std::size_t>(slot)].blocks;
+        const bool moves = std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.place >= 0; });
+        out[static_cast<std::size_t>(at)] = {page.x, page.y, slot, moves ? 1 : 0};
+    }
+    for (const Page& page : slots_) {
+        for (std::size_t n = 0; n < page.blocks.size(); n += 4) {
+            out.emplace_back(page.blocks[n].place, page.blocks[n + 1].place, page.blocks[n + 2].place, page.blocks[n + 3].place);
+        }
     }
     return out;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -10,6 +11,8 @@
 
 #include <glm/glm.hpp>
 
+#include "shared/track_field.h"
+
 namespace sward::tracks {
 
 /// A page of the world by its number east and south; page (0, 0) begins at x = z = 0.
@@ -18,10 +21,16 @@ using PageKey = glm::ivec2;
 /// Which pages have a slot of the pool (methods.md C6). Neighbours share their cells' rims: a cell beside a page's end reads the next page's.
 class Pages {
 public:
+    /// A part of a page that moves, or did.
+    struct Block {
+        int place = -1;               ///< in the pool of what moves; -1: at rest
+        std::int64_t busy_until = -1; ///< last step that moves it
+    };
     struct Page {
         bool used = false;
         PageKey key{0, 0};
-        std::int64_t busy_until = -1; ///< last step that moves it
+        std::int64_t busy_until = -1; ///< last step that moves any of it
+        std::array<Block, shared::kTrackBlocks> blocks{};
         glm::vec2 slope{0, 0};        ///< of its ground dy/dx, dy/dz
         bool shown = false;           ///< what is drawn of it is what it holds
     };
@@ -46,7 +55,8 @@ public:
     /// Slots in the order of their keys, which no order of arrival changes.
     [[nodiscard]] std::vector<int> in_order() const;
 
-    /// The table that shaders look pages up in: page x, z, slot, 0; a power of two of entries, at least four a page.
+    /// The table that shaders look pages up in: page x, z, slot, 1 where something moves; a power of two of entries, at least four a page; then of
+    /// every slot the places of its blocks.
     [[nodiscard]] std::vector<glm::ivec4> table() const;
     [[nodiscard]] int table_size() const;
 

@@ -6,13 +6,17 @@
 #include <epoxy/gl.h>
 
 #include "shared/bindings.h"
+#include "shared/track_seen.h"
 
 namespace sward::tracks {
 
 namespace {
 
 constexpr std::size_t kCells = std::size_t{shared::kTrackCells} * shared::kTrackCells;
-constexpr int kLeastSlots = 8;
+constexpr std::size_t kBlockCells = std::size_t{shared::kTrackBlock} * shared::kTrackBlock;
+constexpr std::size_t kPageBytes = shared::kTrackWords * sizeof(std::uint32_t), kBlockBytes = kBlockCells * sizeof(glm::vec4);
+constexpr int kLeastSlots = 8, kLeastPlaces = 64;
+static_assert(shared::kTrackBlock == TRACK_GROUP);
 
 /// The same with room for more bytes; the new ones are zeros.
 void grow(gl::Buffer& buffer, std::size_t bytes) {
@@ -29,96 +33,107 @@ void zero(const gl::Buffer& buffer, std::size_t first, std::size_t bytes) {
                               nullptr);
 }
 
+/// Room for `asked` of them: twice as many as there are, at most `most`.
+int grown(int asked, int there, int least, int most) { return std::max(asked, std::min(most, std::max(least, 2 * there))); }
+
 } // namespace
 
-TrackPass::TrackPass(int table_size)
-    : change_("track change", {"tracks/change.comp"}), advance_("track advance", {"tracks/advance.comp"}),
-      press_("track press", {"tracks/advance.comp"}, {"PRESS_ONLY"}), rebase_("track rebase", {"tracks/rebase.comp"}),
-      show_("track show", {"tracks/show.comp"}), table_(static_cast<std::size_t>(table_size) * sizeof(glm::ivec4)) {
-    glCreateTextures(GL_TEXTURE_BUFFER, 2, textures_);
-    reserve(kLeastSlots);
+TrackPass::TrackPass(int most_pages, int most_blocks, int table_size)
+    : most_pages_(most_pages), most_blocks_(most_blocks), table_size_(table_size), change_("track change", {"tracks/change.comp"}),
+      advance_("track advance", {"tracks/advance.comp"}), press_("track press", {"tracks/advance.comp"}, {"PRESS_ONLY"}),
+      rebase_("track rebase", {"tracks/rebase.comp"}), show_("track show", {"tracks/show.comp"}),
+      table_((static_cast<std::size_t>(table_size) + static_cast<std::size_t>(most_pages) * shared::kTrackBlocks / 4) * sizeof(glm::ivec4)) {
+    glCreateTextures(GL_TEXTURE_BUFFER, 3, textures_);
+    reserve(1, 1);
 }
 
-TrackPass::~TrackPass() { glDeleteTextures(2, textures_); }
+TrackPass::~TrackPass() { glDeleteTextures(3, textures_); }
 
-void TrackPass::reserve(int slots) {
-    if (slots <= slots_) {
+void TrackPass::reserve(int slots, int places) {
+    if (slots <= slots_ && places <= places_) {
         return;
     }
-    slots_ = std::max(slots, std::max(kLeastSlots, 2 * slots_));
-    const auto count = static_cast<std::size_t>(slots_);
-    grow(bends_, count * kCells * sizeof(glm::vec4));
-    grow(changes_, count * kCells * sizeof(glm::vec4));
-    grow(pressed_, count * kCells * sizeof(glm::vec2));
-    grow(shown_, count * shared::kTrackTexels * sizeof(glm::uvec2));
+    if (slots > slots_) {
+        slots_ = grown(slots, slots_, kLeastSlots, most_pages_);
+        grow(shown_, static_cast<std::size_t>(slots_) * kPageBytes);
+    }
+    if (places > places_) {
+        places_ = grown(places, places_, kLeastPlaces, most_blocks_);
+        grow(bends_, static_cast<std::size_t>(places_) * kBlockBytes);
+        grow(changes_, static_cast<std::size_t>(places_) * kBlockBytes);
+    }
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     point_textures();
 }
 
 void TrackPass::point_textures() const {
-    glTextureBuffer(textures_[0], GL_RGBA16F, shown_.id());
-    glTextureBuffer(textures_[1], GL_RGBA32I, table_.id());
+    glTextureBuffer(textures_[0], GL_RGBA32F, bends_.id());
+    glTextureBuffer(textures_[1], GL_R32UI, shown_.id());
+    glTextureBuffer(textures_[2], GL_RGBA32I, table_.id());
 }
 
 void TrackPass::bind() const {
-    glBindTextureUnit(TEX_TRACK_SHOWN, textures_[0]);
-    glBindTextureUnit(TEX_TRACK_TABLE, textures_[1]);
+    glBindTextureUnit(TEX_TRACK_BENDS, textures_[0]);
+    glBindTextureUnit(TEX_TRACK_SHOWN, textures_[1]);
+    glBindTextureUnit(TEX_TRACK_TABLE, textures_[2]);
 }
 
 void TrackPass::bind_cells() const {
     bends_.bind_storage(BIND_TRACK_BENDS);
     changes_.bind_storage(BIND_TRACK_CHANGES);
-    pressed_.bind_storage(BIND_TRACK_PRESSED);
-    pages_.bind_storage(BIND_TRACK_PAGES);
+    table_.bind_storage(BIND_TRACK_TABLE);
+    work_.bind_storage(BIND_TRACK_WORK);
+    shown_.bind_storage(BIND_TRACK_SHOWN);
 }
 
-void TrackPass::dispatch(const gl::Program& program, std::size_t pages, int side) const {
+void TrackPass::dispatch(const gl::Program& program, std::size_t entries, int side) const {
     const auto groups = static_cast<GLuint>((side + TRACK_GROUP - 1) / TRACK_GROUP);
     program.use();
-    glDispatchCompute(groups, groups, static_cast<GLuint>(pages));
+    glDispatchCompute(groups, groups, static_cast<GLuint>(entries));
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void TrackPass::step(const shared::TrackRules& rules, std::span<const shared::TrackPage> pages, std::span<const shared::TrackPrint> prints, bool press_only) {
-    if (pages.empty()) {
-        return;
-    }
-    pages_.reserve(pages.size_bytes());
-    pages_.upload(pages.data(), pages.size_bytes());
-    prints_.reserve(std::max(prints.size_bytes(), sizeof(shared::TrackPrint)));
-    prints_.upload(prints.data(), prints.size_bytes());
+void TrackPass::upload_work(std::span<const shared::TrackBlock> blocks) {
+    work_.reserve(blocks.size_bytes());
+    work_.upload(blocks.data(), blocks.size_bytes());
     bind_cells();
+}
+
+void TrackPass::step(const shared::TrackRules& rules, const Work& work) {
+    prints_.reserve(std::max(work.prints.size(), std::size_t{1}) * sizeof(shared::TrackPrint));
+    prints_.upload(work.prints.data(), work.prints.size() * sizeof(shared::TrackPrint));
+    const auto run = [&](const gl::Program& program, std::size_t entries) {
+        program.use();
+        program.set("rules_grid", rules.grid);
+        program.set("rules_waves", rules.waves);
+        program.set("rules_grass", rules.grass);
+        dispatch(program, entries, TRACK_GROUP);
+    };
     prints_.bind_storage(BIND_TRACK_PRINTS);
-    for (const gl::Program* program : {&change_, &advance_, &press_}) {
-        if (press_only != (program == &press_)) {
-            continue;
-        }
-        program->use();
-        program->set("rules_grid", rules.grid);
-        program->set("rules_waves", rules.waves);
-        program->set("rules_grass", rules.grass);
-        dispatch(*program, pages.size(), press_only ? TRACK_GROUP : shared::kTrackCells);
+    if (!work.moving.empty()) {
+        upload_work(work.moving);
+        run(change_, work.moving.size());
+        run(advance_, work.moving.size());
+    }
+    if (!work.resting.empty()) {
+        upload_work(work.resting);
+        run(press_, work.resting.size());
     }
 }
 
 void TrackPass::upload_pages(std::span<const int> slots) {
-    std::vector<shared::TrackPage> pages(slots.size());
+    std::vector<shared::TrackBlock> pages(slots.size());
     for (std::size_t n = 0; n < slots.size(); ++n) {
-        pages[n].slot.x = slots[n];
+        pages[n].page.x = slots[n];
     }
-    pages_.reserve(pages.size() * sizeof(pages[0]));
-    pages_.upload(pages.data(), pages.size() * sizeof(pages[0]));
+    upload_work(pages);
 }
 
-void TrackPass::rebase(std::span<const int> slots, float factor) {
-    if (slots.empty()) {
-        return;
+void TrackPass::rebase(std::span<const int> slots) {
+    if (!slots.empty()) {
+        upload_pages(slots);
+        dispatch(rebase_, slots.size(), shared::kTrackCells);
     }
-    upload_pages(slots);
-    bind_cells();
-    rebase_.use();
-    rebase_.set("factor", factor);
-    dispatch(rebase_, slots.size(), shared::kTrackCells);
 }
 
 void TrackPass::show(std::span<const int> slots) {
@@ -126,59 +141,58 @@ void TrackPass::show(std::span<const int> slots) {
         return;
     }
     upload_pages(slots);
-    bind_cells();
-    shown_.bind_storage(BIND_TRACK_SHOWN);
     show_.use();
-    for (int level = 0; level < shared::kTrackLevels; ++level) {
+    show_.set("table_size", table_size_);
+    for (int level = 1; level < shared::kTrackLevels; ++level) {
         show_.set("level", level);
         dispatch(show_, slots.size(), shared::kTrackCells >> level);
     }
 }
 
-void TrackPass::put(int slot, const PageContent& content) {
-    const auto first = static_cast<std::size_t>(slot) * kCells;
-    clear(slot, false);
-    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    pressed_.upload(content.pressed.data(), content.pressed.size() * sizeof(glm::vec2), first * sizeof(glm::vec2));
-    bends_.upload(content.bends.data(), content.bends.size() * sizeof(glm::vec4), first * sizeof(glm::vec4));
-    changes_.upload(content.changes.data(), content.changes.size() * sizeof(glm::vec4), first * sizeof(glm::vec4));
+void TrackPass::put(int slot, const std::vector<std::uint32_t>& pressed) {
+    shown_.upload(pressed.data(), pressed.size() * sizeof(std::uint32_t), static_cast<std::size_t>(slot) * kPageBytes);
 }
 
-PageContent TrackPass::get(int slot, bool moves) const {
-    const auto first = static_cast<std::size_t>(slot) * kCells;
-    PageContent content;
-    content.pressed.resize(kCells);
-    pressed_.read(content.pressed.data(), kCells * sizeof(glm::vec2), first * sizeof(glm::vec2));
-    if (moves) {
-        content.bends.resize(kCells);
-        content.changes.resize(kCells);
-        bends_.read(content.bends.data(), kCells * sizeof(glm::vec4), first * sizeof(glm::vec4));
-        changes_.read(content.changes.data(), kCells * sizeof(glm::vec4), first * sizeof(glm::vec4));
+std::vector<std::uint32_t> TrackPass::get(int slot) const {
+    std::vector<std::uint32_t> pressed(kCells);
+    shown_.read(pressed.data(), kCells * sizeof(std::uint32_t), static_cast<std::size_t>(slot) * kPageBytes);
+    return pressed;
+}
+
+void TrackPass::clear(int slot) { zero(shown_, static_cast<std::size_t>(slot) * kPageBytes, kPageBytes); }
+
+void TrackPass::put_block(int place, std::span<const glm::vec4> bends, std::span<const glm::vec4> changes) {
+    bends_.upload(bends.data(), bends.size_bytes(), static_cast<std::size_t>(place) * kBlockBytes);
+    changes_.upload(changes.data(), changes.size_bytes(), static_cast<std::size_t>(place) * kBlockBytes);
+}
+
+void TrackPass::get_block(int place, PageContent& into) const {
+    const std::size_t first = into.bends.size();
+    into.bends.resize(first + kBlockCells);
+    into.changes.resize(first + kBlockCells);
+    bends_.read(into.bends.data() + first, kBlockBytes, static_cast<std::size_t>(place) * kBlockBytes);
+    changes_.read(into.changes.data() + first, kBlockBytes, static_cast<std::size_t>(place) * kBlockBytes);
+}
+
+void TrackPass::clear_block(int place) {
+    zero(bends_, static_cast<std::size_t>(place) * kBlockBytes, kBlockBytes);
+    zero(changes_, static_cast<std::size_t>(place) * kBlockBytes, kBlockBytes);
+}
+
+glm::vec4 TrackPass::cell(int slot, int place, glm::ivec2 at) const {
+    std::uint32_t word = 0;
+    shown_.read(&word, sizeof(word), static_cast<std::size_t>(slot) * kPageBytes + static_cast<std::size_t>(at.y * shared::kTrackCells + at.x) * sizeof(word));
+    glm::vec4 bend(0);
+    if (place >= 0) {
+        bends_.read(&bend, sizeof(bend), static_cast<std::size_t>(place) * kBlockBytes + static_cast<std::size_t>(shared::track_in_block(at)) * sizeof(bend));
     }
-    return content;
-}
-
-glm::vec4 TrackPass::cell(int slot, glm::ivec2 place) const {
-    const std::size_t n = static_cast<std::size_t>(slot) * kCells + static_cast<std::size_t>(place.y * shared::kTrackCells + place.x);
-    glm::vec4 bend;
-    glm::vec2 lying;
-    bends_.read(&bend, sizeof(bend), n * sizeof(bend));
-    pressed_.read(&lying, sizeof(lying), n * sizeof(lying));
+    const glm::vec2 lying = shared::track_unpack(word);
     return {bend.x, bend.y, lying.x, lying.y};
-}
-
-void TrackPass::clear(int slot, bool bends_only) {
-    const auto first = static_cast<std::size_t>(slot) * kCells;
-    zero(bends_, first * sizeof(glm::vec4), kCells * sizeof(glm::vec4));
-    zero(changes_, first * sizeof(glm::vec4), kCells * sizeof(glm::vec4));
-    if (!bends_only) {
-        zero(pressed_, first * sizeof(glm::vec2), kCells * sizeof(glm::vec2));
-    }
 }
 
 std::size_t TrackPass::bytes() const {
     std::size_t sum = 0;
-    for (const gl::Buffer* buffer : {&bends_, &changes_, &pressed_, &shown_, &table_, &pages_, &prints_}) {
+    for (const gl::Buffer* buffer : {&bends_, &changes_, &shown_, &table_, &work_, &prints_}) {
         sum += buffer->bytes();
     }
     return sum;

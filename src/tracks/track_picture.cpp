@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "shared/track_seen.h"
 #include "tracks/tracks.h"
 
 namespace sward::tracks {
 
 namespace {
 
-constexpr const char* kKey = "sward:tracks"; ///< cell (m); number of the first page east, south
 constexpr int kSide = shared::kTrackCells;
 
 struct Corner {
@@ -23,7 +23,7 @@ struct Corner {
 
 /// What the picture says of its own place; nothing where it says nothing.
 std::optional<Corner> corner_of(const scene::Image& picture) {
-    const auto found = picture.metadata.find(kKey);
+    const auto found = picture.metadata.find(kPictureKey);
     if (found == picture.metadata.end()) {
         return std::nullopt;
     }
@@ -47,17 +47,19 @@ std::optional<Corner> corner_of(const scene::Image& picture) {
 
 std::vector<glm::vec2> Tracks::lying(PageKey key) const {
     const int slot = pages_.slot_of(key);
-    std::vector<glm::vec2> cells;
+    std::vector<std::uint32_t> words;
     float left = rules_.grass.z;
     if (slot >= 0) {
-        cells = pass_.get(slot, false).pressed;
+        words = pass_.get(slot);
     } else if (std::optional<PageContent> content = memory_.look(key)) {
-        cells = std::move(content->pressed);
-        const auto span = static_cast<float>(spec_.lasting_s / 2);
+        words = std::move(content->pressed);
+        const auto span = static_cast<float>(spec_.lasting_s) / shared::kTrackEpochs;
         left *= shared::track_left(span * static_cast<float>(epoch_ - content->epoch), static_cast<float>(spec_.lasting_s));
     }
-    for (glm::vec2& cell : cells) {
-        cell *= left;
+    std::vector<glm::vec2> cells;
+    cells.reserve(words.size());
+    for (const std::uint32_t word : words) {
+        cells.push_back(shared::track_unpack(word) * left);
     }
     return cells;
 }
@@ -84,7 +86,7 @@ scene::Image Tracks::picture() const {
     out.width = static_cast<int>(size.x);
     out.height = static_cast<int>(size.y);
     out.texels.assign(2 * static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height), 0.0f);
-    out.metadata[kKey] = fmt::format("{} {} {}", spec_.cell_m, low.x, low.y);
+    out.metadata[kPictureKey] = fmt::format("{} {} {}", spec_.cell_m, low.x, low.y);
     for (const PageKey key : keys) {
         const std::vector<glm::vec2> cells = lying(key);
         const glm::ivec2 first = (key - low) * kSide;
@@ -105,7 +107,7 @@ void Tracks::begin_with(const scene::Image& picture, const std::string& name) {
     const std::optional<Corner> corner = corner_of(picture);
     const auto x = std::find(picture.channels.begin(), picture.channels.end(), "pressed.X"), z = std::find(picture.channels.begin(), picture.channels.end(), "pressed.Y");
     if (!corner || x == picture.channels.end() || z == picture.channels.end()) {
-        throw refuse("no tracks", fmt::format("a picture that --save-tracks wrote: channels pressed.X, pressed.Y and the attribute {}", kKey));
+        throw refuse("no tracks", fmt::format("a picture that --save-tracks wrote: channels pressed.X, pressed.Y and the attribute {}", kPictureKey));
     }
     if (std::abs(corner->cell_m - spec_.cell_m) > 1e-9) {
         throw refuse(fmt::format("cells of {} m", corner->cell_m), fmt::format("the scene's, {} m (tracks.cell_m)", spec_.cell_m));
@@ -120,9 +122,7 @@ void Tracks::begin_with(const scene::Image& picture, const std::string& name) {
             throw refuse(fmt::format("a value of {}", value), "numbers from -1 to 1");
         }
     }
-    pages_.clear();
-    memory_.clear();
-    table_changed_ = true;
+    forget();
     for (int row = 0; row < picture.height / kSide; ++row) {
         for (int column = 0; column < picture.width / kSide; ++column) {
             PageContent content;
@@ -131,8 +131,8 @@ void Tracks::begin_with(const scene::Image& picture, const std::string& name) {
             for (std::size_t n = 0; n < content.pressed.size(); ++n) {
                 const std::size_t at = channels * ((static_cast<std::size_t>(row * kSide) + n / kSide) * static_cast<std::size_t>(picture.width) +
                                                    static_cast<std::size_t>(column * kSide) + n % kSide);
-                content.pressed[n] = {picture.texels[at + cx], picture.texels[at + cz]};
-                something = something || content.pressed[n] != glm::vec2(0);
+                content.pressed[n] = shared::track_pack({picture.texels[at + cx], picture.texels[at + cz]});
+                something = something || content.pressed[n] != 0;
             }
             if (something) {
                 memory_.put({corner->x + column, corner->z + row}, content);

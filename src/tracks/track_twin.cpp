@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracks/track_twin.h"
 
+#include "shared/track_seen.h"
+
 namespace sward::tracks {
 
 void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::TrackPrint> prints, glm::vec2 slope) {
@@ -21,12 +23,17 @@ void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::Tr
             const auto n = static_cast<std::size_t>(z * kSide + x);
             shared::TrackCell next = shared::track_advance(cells[n], changes[n]);
             const glm::vec2 middle = rules.grid.x * (glm::vec2(x, z) + 0.5f);
+            bool touched = false;
             for (const shared::TrackPrint& print : prints) {
                 const shared::TrackContact contact = shared::track_contact(rules, print, middle);
                 if (contact.touched == 1) {
+                    touched = true;
                     next = shared::track_bent(rules, next, contact, slope);
                     pressed[n] = shared::track_pressed(rules, pressed[n], contact, print.shape.w);
                 }
+            }
+            if (touched) { // kept in a word
+                pressed[n] = shared::track_unpack(shared::track_pack(pressed[n]));
             }
             cells[n] = next;
         }

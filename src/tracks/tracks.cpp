@@ -3,20 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/log.h"
-#include "shared/bindings.h"
+#include "shared/track_seen.h"
 
 namespace sward::tracks {
 
 namespace {
 
 constexpr double kStep_s = 1.0 / 60; // shared::kTrackStep_s, in double
-constexpr double kWakeBeyond_m = 1.5;  // of a print: so far waves run before they are nothing
-constexpr double kEpochs = 2;          // in the time that lies until 1/e
-constexpr double kNearEye_m = 400;     // pages that the memory holds come back for an eye within
+constexpr double kEpochs = shared::kTrackEpochs; // in the time that lies until 1/e
+constexpr double kNearEye_m = 1e4;     // pages that the memory holds come back for an eye within
 
 } // namespace
 
@@ -42,13 +42,20 @@ std::int64_t steps_to_rest(const shared::TrackRules& rules) {
 
 Tracks::Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs)
     : spec_(scene.tracks.value()), prints_(spec_, scene.paths, canopy_m, inputs.ground), inputs_(std::move(inputs)),
-      pages_(spec_.pages, spec_.cell_m * shared::kTrackCells), memory_(static_cast<std::size_t>(spec_.memory_mb * 1e6)), pass_(pages_.table_size()),
+      pages_(spec_.pages, spec_.cell_m * shared::kTrackCells), memory_(static_cast<std::size_t>(spec_.memory_mb * 1e6)), pass_(spec_.pages, spec_.pages * kMovingBlocksAPage, pages_.table_size()),
       rules_(rules_of(spec_, canopy_m)), settle_steps_(steps_to_rest(rules_)) {}
 
-void Tracks::restart() {
+void Tracks::forget() {
     pages_.clear();
     memory_.clear();
+    free_places_.clear();
+    places_ever_ = 0;
+    places_used_ = 0;
     table_changed_ = true;
+}
+
+void Tracks::restart() {
+    forget();
     done_ = epoch_ = 0;
     rules_.grass.z = 1;
     if (first_) {
@@ -75,19 +82,22 @@ void Tracks::advance(double time_s, std::span<const glm::dvec3> eyes) {
     time_s_ = time_s;
     bring_back();
     show();
-    if (refused_ + memory_.lost() + prints_.leaps() > 0 && !told_) {
+    if (refused_ + stilled_ + memory_.lost() + prints_.leaps() > 0 && !told_) {
         told_ = true;
-        base::log_warning(fmt::format("tracks: {} pages found no room (tracks.pages = {}), {} were forgotten (tracks.memory_mb = {}), {} ways were too "
-                                      "fast to be followed", refused_, spec_.pages, memory_.lost(), spec_.memory_mb, prints_.leaps()));
+        base::log_warning(fmt::format("tracks: {} pages found no room and {} blocks were stilled early (tracks.pages = {}), {} pages were forgotten "
+                                      "(tracks.memory_mb = {}), {} ways were too fast to be followed",
+                                      refused_, stilled_, spec_.pages, memory_.lost(), spec_.memory_mb, prints_.leaps()));
     }
 }
 
 void Tracks::follow_epoch(double time_s) {
     const double span = spec_.lasting_s / kEpochs;
     const auto epoch = static_cast<std::int64_t>(std::floor(time_s / span));
-    const float factor = shared::track_left(static_cast<float>(span), static_cast<float>(spec_.lasting_s));
     for (; epoch_ < epoch; ++epoch_) {
-        pass_.rebase(pages_.in_order(), factor);
+        pass_.rebase(pages_.in_order());
+        for (Pages::Page& page : pages_.slots()) {
+            page.shown = false;
+        }
     }
     rules_.grass.z = shared::track_left(static_cast<float>(time_s - static_cast<double>(epoch_) * span), static_cast<float>(spec_.lasting_s));
 }
@@ -99,111 +109,14 @@ void Tracks::step(std::int64_t number, bool full) {
     const std::vector<Ball> balls = inputs_.balls ? inputs_.balls(then_s, kStep_s) : std::vector<Ball>{};
     const std::vector<Print> prints = prints_.at(then_s, kStep_s, balls);
     wake(prints, number, full);
-    const Work work = full ? work_of(prints, number) : touched_by(prints);
-    pass_.step(rules_, work.pages, work.prints, !full);
-    stepped_ += work.pages.size();
-    for (const shared::TrackPage& page : work.pages) {
-        pages_.slots()[static_cast<std::size_t>(page.slot.x)].shown = false;
-    }
-}
-
-/// Pages that have come to rest: what is left of their bends is nothing (steps_to_rest), and they cost nothing from here on. With k = 0 bends stay.
-void Tracks::settle(std::int64_t number) {
-    for (std::size_t slot = 0; slot < pages_.slots().size(); ++slot) {
-        Pages::Page& page = pages_.slots()[slot];
-        if (page.used && page.busy_until == number - 1 && spec_.recovery_per_s2 > 0) {
-            pass_.clear(static_cast<int>(slot), true);
-            page.shown = false;
+    const TrackPass::Work work = work_of(prints, number);
+    pass_.step(rules_, work);
+    stepped_ += work.moving.size() + work.resting.size();
+    for (const auto* blocks : {&work.moving, &work.resting}) {
+        for (const shared::TrackBlock& block : *blocks) {
+            pages_.slots()[static_cast<std::size_t>(block.page.x)].shown = false;
         }
     }
-}
-
-void Tracks::wake(const std::vector<Print>& prints, std::int64_t number, bool full) {
-    std::vector<PageKey> kept;
-    for (const Print& print : prints) {
-        const double beyond = full ? kWakeBeyond_m : 0;
-        const PageKey low = pages_.key_at(print.low - beyond), high = pages_.key_at(print.high + beyond);
-        for (int z = low.y; z <= high.y; ++z) {
-            for (int x = low.x; x <= high.x; ++x) {
-                if (std::find(kept.begin(), kept.end(), PageKey(x, z)) == kept.end()) {
-                    wake_page({x, z}, full ? number + settle_steps_ : number - 2, kept);
-                }
-            }
-        }
-    }
-}
-
-void Tracks::wake_page(PageKey key, std::int64_t until, std::vector<PageKey>& kept) {
-    if (kept.size() >= pages_.slots().size()) {
-        ++refused_;
-        return;
-    }
-    const int slot = bring(key, kept);
-    if (slot >= 0) {
-        Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
-        page.busy_until = std::max(page.busy_until, until);
-        kept.push_back(key);
-    }
-}
-
-namespace {
-
-bool meets(const Print& print, glm::dvec2 low, glm::dvec2 high) {
-    return print.high.x >= low.x && print.low.x <= high.x && print.high.y >= low.y && print.low.y <= high.y;
-}
-
-} // namespace
-
-Tracks::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t number) const {
-    Work work;
-    for (const int slot : pages_.in_order()) {
-        const Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
-        const glm::dvec2 corner = pages_.corner(page.key);
-        shared::TrackPage out{};
-        out.slot = {slot, static_cast<int>(work.prints.size()), 0, 0};
-        for (const Print& print : prints) {
-            if (meets(print, corner, corner + pages_.side_m())) {
-                work.prints.push_back(print.from(corner));
-                ++out.slot.z;
-            }
-        }
-        if (out.slot.z == 0 && page.busy_until < number) {
-            continue;
-        }
-        out.beside = {pages_.slot_of(page.key - glm::ivec2(1, 0)), pages_.slot_of(page.key + glm::ivec2(1, 0)), pages_.slot_of(page.key - glm::ivec2(0, 1)),
-                      pages_.slot_of(page.key + glm::ivec2(0, 1))};
-        out.ground = glm::vec4(page.slope, 0, 0);
-        work.pages.push_back(out);
-    }
-    return work;
-}
-
-/// The parts of pages that prints meet, a workgroup's cells each.
-Tracks::Work Tracks::touched_by(const std::vector<Print>& prints) const {
-    Work work;
-    const double part = spec_.cell_m * TRACK_GROUP;
-    for (const int slot : pages_.in_order()) {
-        const glm::dvec2 corner = pages_.corner(pages_.slots()[static_cast<std::size_t>(slot)].key);
-        const auto first = static_cast<int>(work.prints.size());
-        glm::dvec2 low(1e30), high(-1e30);
-        for (const Print& print : prints) {
-            if (meets(print, corner, corner + pages_.side_m())) {
-                work.prints.push_back(print.from(corner));
-                low = glm::min(low, print.low - corner);
-                high = glm::max(high, print.high - corner);
-            }
-        }
-        const int count = static_cast<int>(work.prints.size()) - first, last = shared::kTrackCells / TRACK_GROUP - 1;
-        const glm::ivec2 from(glm::clamp(glm::floor(low / part), glm::dvec2(0), glm::dvec2(last))), to(glm::clamp(glm::floor(high / part), glm::dvec2(0), glm::dvec2(last)));
-        for (int z = from.y; count > 0 && z <= to.y; ++z) {
-            for (int x = from.x; x <= to.x; ++x) {
-                shared::TrackPage out{};
-                out.slot = {slot, first, count, (x + 256 * z) * TRACK_GROUP};
-                work.pages.push_back(out);
-            }
-        }
-    }
-    return work;
 }
 
 int Tracks::bring(PageKey key, std::span<const PageKey> kept) {
@@ -219,39 +132,59 @@ int Tracks::bring(PageKey key, std::span<const PageKey> kept) {
         drop(worst);
     }
     const int slot = pages_.open(key);
-    pass_.reserve(slot + 1);
+    pass_.reserve(slot + 1, 0);
     Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
     const double side = pages_.side_m();
     const glm::dvec2 low = pages_.corner(key), high = low + side;
     const double nw = inputs_.ground(low.x, low.y), ne = inputs_.ground(high.x, low.y), sw = inputs_.ground(low.x, high.y), se = inputs_.ground(high.x, high.y);
     page.slope = glm::vec2(glm::dvec2(ne + se - nw - sw, sw + se - nw - ne) / (2 * side));
     table_changed_ = true;
+    pass_.clear(slot);
     if (std::optional<PageContent> content = memory_.take(key)) {
-        const float factor = shared::track_left(static_cast<float>(spec_.lasting_s / kEpochs), static_cast<float>(spec_.lasting_s));
-        const std::int64_t epochs = std::min<std::int64_t>(epoch_ - content->epoch, 1000);
-        for (std::int64_t n = 0; n < epochs; ++n) { // step by step, as rebase() would have: the same bits
-            for (glm::vec2& cell : content->pressed) {
-                cell *= factor;
-            }
-        }
-        if (content->busy_until < done_ && spec_.recovery_per_s2 > 0) {
-            content->bends.clear();
-            content->changes.clear();
-        }
-        page.busy_until = content->busy_until;
-        pass_.put(slot, *content);
-    } else {
-        pass_.clear(slot, false);
+        restore(slot, std::move(*content));
     }
     return slot;
 }
 
+void Tracks::restore(int slot, PageContent content) {
+    Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
+    const std::int64_t epochs = std::min<std::int64_t>(epoch_ - content.epoch, 1000);
+    for (std::int64_t n = 0; n < epochs; ++n) { // step by step, as rebase() would have: the same bits
+        for (std::uint32_t& cell : content.pressed) {
+            cell = shared::track_rebased(cell);
+        }
+    }
+    pass_.put(slot, content.pressed);
+    constexpr std::size_t kBlockCells = std::size_t{shared::kTrackBlock} * shared::kTrackBlock;
+    for (std::size_t n = 0; n < content.moving.size() / 2; ++n) {
+        const std::int64_t until = content.moving[2 * n + 1];
+        if (until < done_ && spec_.recovery_per_s2 > 0) {
+            continue; // has risen since
+        }
+        Block& block = page.blocks[static_cast<std::size_t>(content.moving[2 * n])];
+        block.place = take_place(until);
+        if (block.place >= 0) {
+            block.busy_until = until;
+            page.busy_until = std::max(page.busy_until, until);
+            pass_.put_block(block.place, std::span(content.bends).subspan(n * kBlockCells, kBlockCells), std::span(content.changes).subspan(n * kBlockCells, kBlockCells));
+        }
+    }
+}
+
 void Tracks::drop(int slot) {
     Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
-    PageContent content = pass_.get(slot, page.busy_until >= done_ || spec_.recovery_per_s2 <= 0);
+    PageContent content;
+    content.pressed = pass_.get(slot);
     content.epoch = epoch_;
-    content.busy_until = page.busy_until;
-    const bool something = !content.bends.empty() || std::any_of(content.pressed.begin(), content.pressed.end(), [](glm::vec2 p) { return p != glm::vec2(0); });
+    for (std::size_t n = 0; n < page.blocks.size(); ++n) {
+        Block& block = page.blocks[n];
+        if (block.place >= 0) {
+            content.moving.insert(content.moving.end(), {static_cast<std::int64_t>(n), block.busy_until});
+            pass_.get_block(block.place, content);
+            lay_to_rest(block);
+        }
+    }
+    const bool something = !content.moving.empty() || std::any_of(content.pressed.begin(), content.pressed.end(), [](std::uint32_t word) { return word != 0; });
     if (something) {
         memory_.put(page.key, content);
     }
@@ -302,18 +235,19 @@ void Tracks::show() {
             page.shown = true;
         }
     }
-    pass_.show(stale);
     if (table_changed_) {
         pass_.set_table(pages_.table());
         table_changed_ = false;
     }
+    pass_.show(stale);
 }
 
 shared::TrackField Tracks::field(glm::dvec2 anchor) const {
     shared::TrackField out{};
     const PageKey page = pages_.key_at(anchor);
     out.place = glm::vec4(glm::vec2(anchor - pages_.corner(page)), static_cast<float>(1 / spec_.cell_m), rules_.grass.z);
-    out.page = {page.x, page.y, pages_.used() > 0 ? pages_.table_size() - 1 : -1, 0};
+    out.page = {page.x, page.y, pages_.used() > 0 ? pages_.table_size() - 1 : -1,
+                static_cast<int>(1000 * spec_.wave_ms) + 65536 * static_cast<int>(1000 * spec_.wave_gain_m)};
     glm::dvec2 low(1e30), high(-1e30);
     for (const Pages::Page& one : pages_.slots()) {
         if (one.used) {
@@ -330,7 +264,9 @@ Tracks::Sample Tracks::at(double x, double z) const {
     const int slot = pages_.slot_of(key);
     Sample sample;
     if (slot >= 0) {
-        const glm::vec4 cell = pass_.cell(slot, glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0, shared::kTrackCells - 1));
+        const glm::ivec2 at = glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0, shared::kTrackCells - 1);
+        const Block& block = pages_.slots()[static_cast<std::size_t>(slot)].blocks[static_cast<std::size_t>(shared::track_block_of(at))];
+        const glm::vec4 cell = pass_.cell(slot, block.place, at);
         sample.theta = glm::vec2(cell);
         sample.pressed = glm::vec2(cell.z, cell.w) * rules_.grass.z;
     }

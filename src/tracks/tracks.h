@@ -57,26 +57,31 @@ public:
     [[nodiscard]] const PageMemory& memory() const { return memory_; }
     [[nodiscard]] std::size_t bytes() const { return pass_.bytes(); }
     [[nodiscard]] std::size_t refused() const { return refused_; } ///< pages that something touched and that had no room
-    [[nodiscard]] std::uint64_t stepped_pages() const { return stepped_; }
+    [[nodiscard]] std::size_t stilled() const { return stilled_; } ///< blocks whose bends were given up for others'
+    [[nodiscard]] std::uint64_t stepped_blocks() const { return stepped_; }
+    [[nodiscard]] std::size_t moving() const { return places_used_; } ///< blocks
+    /// Blocks that can move at a time: of a page that a wheel crosses, and the ways beside it, 17 of 64 do.
+    static constexpr int kMovingBlocksAPage = 17;
     [[nodiscard]] const shared::TrackRules& rules() const { return rules_; }
     void reload() { pass_.reload(); }
 
     static constexpr double kLeap_s = 10;
 
 private:
-    struct Work {
-        std::vector<shared::TrackPage> pages;
-        std::vector<shared::TrackPrint> prints;
-    };
+    using Block = Pages::Block;
+    void forget();
     void restart();
     void step(std::int64_t number, bool full);
     void settle(std::int64_t number);
     void follow_epoch(double time_s);
     void wake(const std::vector<Print>& prints, std::int64_t number, bool full);
-    void wake_page(PageKey key, std::int64_t number, std::vector<PageKey>& kept);
-    [[nodiscard]] Work work_of(const std::vector<Print>& prints, std::int64_t number) const;
-    [[nodiscard]] Work touched_by(const std::vector<Print>& prints) const;
+    void wake_blocks(int slot, const Print& print, std::int64_t until);
+    int take_place(std::int64_t until);
+    void lay_to_rest(Block& block);
+    [[nodiscard]] TrackPass::Work work_of(const std::vector<Print>& prints, std::int64_t number) const;
+    [[nodiscard]] int place_of(PageKey key, glm::ivec2 block) const;
     int bring(PageKey key, std::span<const PageKey> kept);
+    void restore(int slot, PageContent content);
     void drop(int slot);
     void bring_back();
     void show();
@@ -94,11 +99,16 @@ private:
     std::optional<scene::Image> first_; ///< what lay at time 0
     std::string first_name_;
     double time_s_ = 0;
-    std::size_t refused_ = 0;
+    std::vector<int> free_places_; ///< of the pool of what moves
+    int places_ever_ = 0;          ///< those in use and free ones
+    std::size_t places_used_ = 0;
+    std::size_t refused_ = 0, stilled_ = 0;
     std::uint64_t stepped_ = 0;
     bool table_changed_ = true, told_ = false;
 };
 
+/// Attribute of the pictures: cell (m); number of the first page east, south.
+inline constexpr const char* kPictureKey = "sward:tracks";
 /// Steps until a bend of 1 is less than a thousandth, by a cell's own rules; at most a minute's.
 [[nodiscard]] std::int64_t steps_to_rest(const shared::TrackRules& rules);
 /// C2's constants as the passes take them.

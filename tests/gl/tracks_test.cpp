@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "gl/fixture.h"
+#include "shared/track_seen.h"
 #include "tracks/track_twin.h"
 #include "tracks/tracks.h"
 
@@ -35,27 +36,40 @@ TEST_F(Tracks, StepsEqualTheTwin) {
     const scene::Scene scene = drive(10, 4, 28);
     const shared::TrackRules rules = tracks::rules_of(*scene.tracks, 0.3);
     const tracks::PrintList list(*scene.tracks, scene.paths, 0.3, [](double, double) { return 0.0; });
-    tracks::TrackPass pass(64);
+    constexpr int kRow = shared::kTrackRow;
+    tracks::TrackPass pass(1, shared::kTrackBlocks, 64);
+    pass.reserve(1, shared::kTrackBlocks);
     TrackTwin twin;
     for (int n = 1; n <= 160; ++n) {
-        std::vector<shared::TrackPrint> prints;
+        tracks::TrackPass::Work work;
         for (const tracks::Print& print : list.at(n / 60.0, 1 / 60.0, {})) {
-            prints.push_back(print.from({0, 0}));
+            work.prints.push_back(print.from({0, 0}));
         }
-        shared::TrackPage page{};
-        page.slot = {0, 0, static_cast<int>(prints.size()), 0};
-        page.beside = {-1, -1, -1, -1};
-        page.ground = {0.2f, -0.1f, 0, 0};
-        pass.step(rules, {&page, 1}, prints, false);
-        twin.step(rules, prints, {0.2f, -0.1f});
+        for (int block = 0; block < shared::kTrackBlocks; ++block) {
+            const int x = block % kRow, z = block / kRow;
+            shared::TrackBlock entry{};
+            entry.page = {0, 0, static_cast<int>(work.prints.size()), (x + 256 * z) * shared::kTrackBlock};
+            entry.own.x = block;
+            entry.beside = {x > 0 ? block - 1 : -1, x < kRow - 1 ? block + 1 : -1, z > 0 ? block - kRow : -1, z < kRow - 1 ? block + kRow : -1};
+            entry.ground = {0.2f, -0.1f, 0, 0};
+            work.moving.push_back(entry);
+        }
+        pass.step(rules, work);
+        twin.step(rules, work.prints, {0.2f, -0.1f});
     }
-    const tracks::PageContent content = pass.get(0, true);
+    const std::vector<std::uint32_t> words = pass.get(0);
+    tracks::PageContent content;
+    for (int block = 0; block < shared::kTrackBlocks; ++block) {
+        pass.get_block(block, content);
+    }
     double most_theta = 0, most_omega = 0, most_pressed = 0, reached = 0;
     for (std::size_t n = 0; n < TrackTwin::kCount; ++n) {
         const shared::TrackCell& cell = twin.cells[n];
-        most_theta = std::max<double>(most_theta, glm::length(glm::vec2(content.bends[n]) - cell.theta));
-        most_omega = std::max<double>(most_omega, glm::length(glm::vec2(content.bends[n].z, content.bends[n].w) - cell.omega) / (1 + glm::length(cell.omega)));
-        most_pressed = std::max<double>(most_pressed, glm::length(content.pressed[n] - twin.pressed[n]));
+        const glm::ivec2 at(static_cast<int>(n) % shared::kTrackCells, static_cast<int>(n) / shared::kTrackCells);
+        const glm::vec4 bend = content.bends[static_cast<std::size_t>(shared::track_block_of(at) * shared::kTrackBlock * shared::kTrackBlock + shared::track_in_block(at))];
+        most_theta = std::max<double>(most_theta, glm::length(glm::vec2(bend) - cell.theta));
+        most_omega = std::max<double>(most_omega, glm::length(glm::vec2(bend.z, bend.w) - cell.omega) / (1 + glm::length(cell.omega)));
+        most_pressed = std::max<double>(most_pressed, glm::length(shared::track_unpack(words[n]) - twin.pressed[n]));
         reached = std::max<double>(reached, glm::length(cell.theta));
     }
     EXPECT_LT(most_theta, 1e-4);
@@ -158,7 +172,7 @@ TEST_F(Tracks, ALeapKeepsWhatLies) {
     }
     leaps.advance(80);
     EXPECT_EQ(bits(steps.tracks, 1, 30), bits(leaps.tracks, 1, 30));
-    EXPECT_LT(leaps.tracks.stepped_pages(), steps.tracks.stepped_pages());
+    EXPECT_LT(leaps.tracks.stepped_blocks(), steps.tracks.stepped_blocks());
 }
 
 TEST_F(Tracks, PagesAtRestAreNotStepped) {
@@ -169,10 +183,10 @@ TEST_F(Tracks, PagesAtRestAreNotStepped) {
     scene.paths["drive"].keys.push_back({4, {30, 5, 16}, 90, 0}); // it leaves the ground
     Field field(scene);
     field.advance(30);
-    const std::uint64_t before = field.tracks.stepped_pages();
+    const std::uint64_t before = field.tracks.stepped_blocks();
     EXPECT_GT(before, 100u);
     field.advance(40);
-    EXPECT_EQ(field.tracks.stepped_pages(), before);
+    EXPECT_EQ(field.tracks.stepped_blocks(), before);
     EXPECT_GT(field.tracks.pages().used(), 0u);
 }
 
@@ -189,7 +203,7 @@ TEST_F(Tracks, APictureBeginsTheNextSimulation) {
     second.advance(0);
     for (double x = -19; x < 29; x += 1.3) {
         const auto a = first.tracks.at(x, 16.8), b = second.tracks.at(x, 16.8);
-        EXPECT_NEAR(a.pressed.x, b.pressed.x, 1e-6f);
+        EXPECT_NEAR(a.pressed.x, b.pressed.x, 1e-4f);
     }
     EXPECT_GT(second.tracks.at(5, 16.8).pressed.x, 0.5f);
     second.advance(5);

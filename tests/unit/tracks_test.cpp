@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "scene/scene.h"
+#include "shared/track_seen.h"
 #include "tracks/page_memory.h"
 #include "tracks/pages.h"
 #include "tracks/track_twin.h"
@@ -70,6 +71,36 @@ TEST(Tracks, AFrontRunsAtItsSpeed) {
         const double measured = (crest(field, 60) - first) / (late - early) / cells_a_step;
         EXPECT_NEAR(measured, 1, 0.05) << speed << " m/s";
     }
+}
+
+TEST(Tracks, ATipBendsAsItsRootDidAWhileAgo) {
+    constexpr float speed = 4;
+    TrackRules rules = plain_rules(speed, 0.01f, 0);
+    TrackTwin field;
+    raise_wall(field, 30, 5);
+    for (TrackCell& cell : field.cells) {
+        cell.omega = {1, 0}; // what passed ran east
+    }
+    const auto theta = [&](float cells) {
+        const auto x = static_cast<int>(cells);
+        return glm::mix(field.at(x, 64).theta.x, field.at(x + 1, 64).theta.x, cells - static_cast<float>(x));
+    };
+    for (const float share : {0.5f, 1.0f}) {
+        const glm::vec2 ahead = shared::track_delay({0.1f, 0}, {1, 0}, share, {speed, 0});
+        EXPECT_NEAR(ahead.x, share * shared::kDelay_s * speed, 1e-5f);
+    }
+    EXPECT_LT(shared::track_delay({-0.1f, 0}, {1, 0}, 1, {speed, 0}).x, 0.6f * shared::kDelay_s * speed); // back up it is quicker
+    EXPECT_LE(shared::track_delay({0.1f, 0}, {100, 0}, 1, {speed, 0}).x, speed * 0.5f * shared::kPi / 100 + 1e-5f);
+    std::vector<float> root;
+    for (int n = 0; n < 120; ++n) {
+        field.step(rules, {}, {0, 0});
+        root.push_back(theta(58));
+        const int ago = static_cast<int>(shared::kDelay_s / kStep + 0.5f);
+        if (n > 80) { // the wave is there
+            EXPECT_NEAR(theta(58 + shared::kDelay_s * speed / rules.grid.x), root[static_cast<std::size_t>(n - ago)], 0.02f) << n;
+        }
+    }
+    EXPECT_GT(*std::max_element(root.begin() + 80, root.end()), 0.1f);
 }
 
 /// The energy that central damping takes from and never adds to: half of the changes' squares and of bend times what draws it back.
@@ -260,26 +291,26 @@ TEST(Tracks, WindAndTrackAddInOneUnit) {
     const glm::vec2 both = shared::sway_wind({4, 0}, response, {0.3f, 0}, {0, 0});
     EXPECT_NEAR(shared::bend_intensity(both.x, response), blown + 0.3f, 1e-4f);
     EXPECT_LE(shared::bend_intensity(glm::length(shared::sway_wind({80, 0}, response, {1, 0}, {1, 0})), response), shared::kMostSwayBend + 1e-4f);
-    EXPECT_GT(shared::lying_light({1, 0}, {-0.9f, 0.4f, 0}), 1.2f);
-    EXPECT_LT(shared::lying_light({1, 0}, {0.9f, 0.4f, 0}), 0.8f);
+    EXPECT_GT(shared::lying_light({1, 0}, 1, {-0.9f, 0.4f, 0}), 1.2f);
+    EXPECT_LT(shared::lying_light({1, 0}, 1, {0.9f, 0.4f, 0}), 0.8f);
 }
 
 TEST(Tracks, MemoryGivesPagesBackToTheBitAndKeepsItsBudget) {
     tracks::PageMemory memory(40'000);
     tracks::PageContent content;
-    content.pressed.assign(TrackTwin::kCount, {0, 0});
-    content.bends.assign(TrackTwin::kCount, {0, 0, 0, 0});
+    content.pressed.assign(TrackTwin::kCount, 0);
+    content.moving = {7, 99, 8, 120, 63, 4};
+    content.bends.assign(3 * 256, {0, 0, 0, 0});
     content.changes = content.bends;
     for (int n = 0; n < 500; ++n) {
-        content.pressed[static_cast<std::size_t>(7 * n)] = {0.1f * static_cast<float>(n), -1.0f / 3.0f};
-        content.bends[static_cast<std::size_t>(3 * n)] = {1e-7f * static_cast<float>(n), 0.7f, -0.2f, 0};
+        content.pressed[static_cast<std::size_t>(7 * n)] = shared::track_pack({0.002f * static_cast<float>(n), -1.0f / 3.0f});
+        content.bends[static_cast<std::size_t>(n)] = {1e-7f * static_cast<float>(n), 0.7f, -0.2f, 0};
     }
     content.epoch = 3;
-    content.busy_until = 99;
     EXPECT_TRUE(memory.put({-4, 9}, content));
     const auto back = memory.take({-4, 9});
     ASSERT_TRUE(back.has_value());
-    EXPECT_TRUE(back->pressed == content.pressed && back->bends == content.bends && back->changes == content.changes);
+    EXPECT_TRUE(back->pressed == content.pressed && back->moving == content.moving && back->bends == content.bends && back->changes == content.changes);
     EXPECT_EQ(back->epoch, 3);
     EXPECT_EQ(memory.bytes(), 0u);
     EXPECT_FALSE(memory.take({-4, 9}).has_value());
@@ -330,6 +361,10 @@ TEST(Tracks, KeysOutOfRangeAreRefused) {
     EXPECT_NE(refusal("cell_m = 0.05\nwave_ms = 3").find("tracks.wave_ms"), std::string::npos); // outside the stable bound
     EXPECT_NE(refusal("pages = 0").find("tracks.pages"), std::string::npos);
     EXPECT_NE(refusal("speed = 3").find("speed"), std::string::npos);
+    EXPECT_EQ(refusal("mask = \"a.png\"\nmask_place = [0, 0]\nmask_size_m = [10, 20]"), "");
+    EXPECT_NE(refusal("mask = \"a.png\"\nmask_place = [0, 0]").find("tracks.mask_size_m"), std::string::npos);
+    EXPECT_NE(refusal("mask_way_deg = 20").find("tracks.mask"), std::string::npos);
+    EXPECT_NE(refusal("mask = \"a.png\"\nmask_way = \"b.png\"\nmask_way_deg = 20").find("tracks.mask_way_deg"), std::string::npos);
     EXPECT_NE(refusal("[[tracks.foot]]\npath = \"drive\"").find("shapes"), std::string::npos);
     EXPECT_NE(refusal("[[tracks.foot]]\npath = \"dirve\"\nbox = [0, 0, 1, 1]").find("drive"), std::string::npos);
     EXPECT_NE(refusal("[[tracks.foot]]\npath = \"drive\"\nwheel = [0, 0, 0, 1]").find("wheel"), std::string::npos);
