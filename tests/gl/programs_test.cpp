@@ -201,7 +201,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"Inflow", BIND_WIND_INFLOW},
 
         {"TrackBends", BIND_TRACK_BENDS}, {"TrackChanges", BIND_TRACK_CHANGES},
-        {"TrackPressed", BIND_TRACK_PRESSED}, {"TrackPages", BIND_TRACK_PAGES},
+        {"TrackTable", BIND_TRACK_TABLE}, {"TrackWork", BIND_TRACK_WORK},
         {"TrackPrints", BIND_TRACK_PRINTS}, {"TrackShown", BIND_TRACK_SHOWN},
 
         {"Records", BIND_PHYSICS_BLADES}, {"Pages", BIND_PHYSICS_PAGES},
@@ -263,6 +263,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
                                                 {"depth", TEX_RESOLVE_DEPTH},
+                                                {"track_bends", TEX_TRACK_BENDS},
                                                 {"track_shown", TEX_TRACK_SHOWN},
                                                 {"track_table", TEX_TRACK_TABLE},
                                                 {"wind_ambient", TEX_WIND_AMBIENT},
