@@ -87,7 +87,7 @@ int run_import(const ImportOptions& options) {
         base::log_warning(fmt::format("{}: the joint's gradient is {}: the volume is not periodic{}", options.input.string(), joint.words(),
                                       options.seam ? "; try another --cut" : ", --seam makes it so"));
     ImportQuery query{.name = options.name, .density = options.density, .size = options.size, .layers = options.layers,
-                      .slices = options.slices, .levels = options.levels, .threads = options.threads};
+                      .slices = options.slices, .levels = options.levels, .far_rays = options.far_rays, .threads = options.threads};
     if (query.name.empty())
         query.name = volume.preset.empty() ? plain_name(options.input) : volume.preset;
     grass::GrassSet set = import_volume(volume, query, options.input);

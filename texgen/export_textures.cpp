@@ -150,6 +150,10 @@ ordered_json image_json(const grass::GrassSet& set, const Group& group, int inde
     return out;
 }
 
+ordered_json rgb(const glm::vec3& c) {
+    return {c.x, c.y, c.z};
+}
+
 ordered_json group_json(const grass::GrassSet& set, const Group& group, bool atlases) {
     ordered_json out = {{"width", group.width}, {"height", group.height}, {"mips", group.mips}, {"images", group.images.size()},
                         {"albedo", array_file("albedo", group)}, {"tangent", array_file("tangent", group)}};
@@ -170,6 +174,7 @@ std::string textures_json(const grass::GrassSet& set, const std::vector<Group>& 
                          {"side_m", set.side_m},
                          {"canopy_m", set.canopy_m},
                          {"variants", set.variants},
+                         {"floor", {{"cover", set.floor.cover}, {"moss", rgb(set.floor.moss)}, {"litter", rgb(set.floor.litter)}}},
                          {"albedo", "RGB sRGB, colour of the nearest blades under alpha 0; A linear, straight"},
                          {"tangent", "RGB x, y, z * 0.5 + 0.5 along the blade, y up; A height, 0 ground .. 1 canopy_m"}};
     for (const Group& group : groups)

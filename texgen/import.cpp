@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -13,6 +14,7 @@
 #include "texgen/far_table.h"
 #include "base/hash.h"
 #include "texgen/import_field.h"
+#include "texgen/import_palette.h"
 #include "texgen/march_fit.h"
 #include "texgen/parallel.h"
 #include "texgen/preset.h"
@@ -23,55 +25,6 @@ namespace {
 
 constexpr std::uint64_t kMaxCells = std::uint64_t{1} << 31; // of the box: the index takes 12 bytes for 64 of them
 constexpr int kMinSize = 32, kMaxSize = 2048;
-
-/// Colour over the place along the blade, by least squares, and how far single voxels are from it.
-struct ColourFit {
-    glm::dvec3 root{0}, tip{0};
-    double variation = 0; ///< standard deviation of the value, relative
-};
-
-ColourFit fit_colours(const VoxelField& field) {
-    double w = 0, v = 0, vv = 0;
-    glm::dvec3 c(0), cv(0);
-    for (std::size_t i = 0; i < field.size(); ++i) {
-        const double weight = field.density(i), at = field.along(i);
-        w += weight;
-        v += weight * at;
-        vv += weight * at * at;
-        c += weight * glm::dvec3(field.colour(i));
-        cv += weight * at * glm::dvec3(field.colour(i));
-    }
-    const double spread = w * vv - v * v;
-    ColourFit fit;
-    const glm::dvec3 slope = spread > 1e-9 * w * w ? (w * cv - v * c) / spread : glm::dvec3(0);
-    fit.root = (c - slope * v) / w;
-    fit.tip = fit.root + slope;
-    double error = 0;
-    for (std::size_t i = 0; i < field.size(); ++i) {
-        const glm::dvec3 mean = glm::mix(fit.root, fit.tip, static_cast<double>(field.along(i)));
-        const double expected = mean.x + mean.y + mean.z;
-        const glm::vec3& found = field.colour(i);
-        const double off = expected > 1e-6 ? (found.x + found.y + found.z) / expected - 1 : 0;
-        error += field.density(i) * off * off;
-    }
-    fit.variation = std::sqrt(error / w);
-    fit.root = glm::clamp(fit.root, 0.0, 1.0);
-    fit.tip = glm::clamp(fit.tip, 0.0, 1.0);
-    return fit;
-}
-
-shared::GrassAppearance appearance_of(const VoxelField& field) {
-    shared::GrassAppearance look = appearance(Species{});
-    if (!field.coloured())
-        return look;
-    const ColourFit fit = fit_colours(field);
-    // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard deviation is 0.7 / sqrt 12.
-    const double variation = std::clamp(fit.variation / (0.7 / std::sqrt(12.0)), 0.0, 1.0);
-    look.root = shared::vec4(glm::vec3(fit.root), 0); // no share of dry blades: the voxels' own mean holds them
-    look.tip = shared::vec4(glm::vec3(fit.tip), static_cast<float>(variation));
-    look.dry = shared::vec4(glm::vec3(fit.tip), look.dry.w);
-    return look;
-}
 
 int nearest_size(int cells) {
     const int below = static_cast<int>(std::bit_floor(static_cast<unsigned>(cells)));
@@ -143,7 +96,9 @@ grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, co
         --query.levels;
     check(volume, query, file);
     const StepTimer timer("import");
-    const VoxelField field(volume, query.density);
+    VoxelField field(volume, query.density);
+    Palette palette = palette_of(field);
+    field.paint(std::move(palette.of_voxel));
     grass::GrassSet set;
     set.name = query.name;
     set.seed = volume.set_seed;
@@ -151,7 +106,7 @@ grass::GrassSet import_volume(const Volume& volume, const ImportQuery& given, co
     set.canopy_m = std::nextafter(static_cast<float>(field.canopy()), 1e9f);
     set.variants = 1;
     set.variant_begin = {0, 0};
-    set.species.push_back({"imported", "blade", 1, appearance_of(field)});
+    set.species = std::move(palette.species);
     const double slab = field.side() / std::max(4, query.slices >> (query.levels - 1));
     const double texel = field.side() / (query.size >> (query.levels - 1));
     set.offset_range_m = static_cast<float>(field.farthest_root() + std::max(slab, texel) / 2 + texel / 2 + volume.voxel_m);

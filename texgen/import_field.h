@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -55,9 +56,11 @@ public:
     [[nodiscard]] glm::dvec2 root(std::size_t i) const;   ///< x, z of the strand's foot, nearest image, metres
     [[nodiscard]] glm::dvec3 centre(std::size_t i) const;
     [[nodiscard]] bool coloured() const { return !volume_.colour.empty(); }
-    /// Linear albedo of a voxel that the file gave one: what a texel that shows it should wear. The set's format has a colour a
-    /// species so far, which import.cpp fits to these.
+    /// Linear albedo of a voxel that the file gave one: what the far field's averages hold.
     [[nodiscard]] const glm::vec3& colour(std::size_t i) const { return volume_.colour[i]; }
+    /// The species that a texel names which shows the voxel, and its giver: one a voxel, or none for a volume of one species.
+    [[nodiscard]] int species(std::size_t i) const { return species_.empty() ? 0 : species_[i]; }
+    void paint(std::vector<std::uint8_t> species) { species_ = std::move(species); }
     /// Opacity of a cloud's voxel, or area over face of a blade's.
     [[nodiscard]] float density(std::size_t i) const { return volume_.density[i] * density_; }
 
@@ -88,6 +91,7 @@ private:
     std::vector<glm::vec3> tangents_; ///< estimated, where the volume has none
     std::vector<std::vector<glm::vec2>> feet_; ///< of each blade number (rank and seed), in metres
     std::vector<std::uint16_t> tops_;          ///< highest cell of each
+    std::vector<std::uint8_t> species_;
 };
 
 /// The volume as a canopy that rays can be cast through, at rest and bent. Both must outlive it.

@@ -198,6 +198,7 @@ private:
                       (static_cast<float>(field_.rank8(i)) + 0.5f) / 256, (static_cast<float>(field_.seed8(i)) + 0.5f) / 256};
         blade.v1 = {t, 0}; // blade_tangent of a straight curve
         blade.v2 = {2.0f * t, 0};
+        blade.shape.w = static_cast<float>(field_.species(i));
         records_.push_back(blade);
         strands_.push_back(static_cast<std::int32_t>(field_.strand(i)));
         return static_cast<std::int32_t>(records_.size() - 1);

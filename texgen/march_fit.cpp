@@ -49,35 +49,60 @@ Texel mix(const Texel& a, const Texel& b, float t) {
     return {std::lerp(a.density, b.density, t), std::lerp(a.albedo, b.albedo, t), glm::mix(a.tangent, b.tangent, t)};
 }
 
-/// Trilinear, repeating along u and, if asked, along v: as the GPU reads it.
-class Reader {
+/// What a ray reads of one of the march's textures, mip by mip.
+class Texels {
 public:
-    Reader(const MarchImages& images, bool repeat_v) : images_(images), repeat_v_(repeat_v) {}
+    Texels(const MarchImages& images, bool repeat_v) : repeat_v_(repeat_v) {
+        for (std::size_t i = 0; i < images.mips.size(); ++i) {
+            Mip mip{std::max(1, images.width >> i), std::max(1, images.height >> i), {}};
+            for (std::size_t at = 0; at < images.mips[i].size(); at += MarchImages::kFloats) {
+                const float* sums = &images.mips[i][at];
+                mip.texels.push_back({sums[MarchImages::kDensity], glm::dot(glm::vec3(sums[0], sums[1], sums[2]), kLuminance), {sums[4], sums[5], sums[6]}});
+            }
+            mips_.push_back(std::move(mip));
+        }
+    }
+    /// Trilinear, repeating along u and, if asked, along v: as the GPU reads it.
     [[nodiscard]] Texel at(glm::vec3 place, float mip) const {
-        const float last = static_cast<float>(images_.mips.size() - 1), m = std::clamp(mip, 0.0f, last);
-        const auto low = static_cast<int>(m);
+        const float last = static_cast<float>(mips_.size() - 1), m = std::clamp(mip, 0.0f, last);
+        const auto low = static_cast<std::size_t>(m);
         const float share = m - static_cast<float>(low);
-        const Texel near = in_mip(place, low);
-        return share > 0 ? mix(near, in_mip(place, low + 1), share) : near;
+        const Texel near = in_mip(place, mips_[low]);
+        return share > 0 ? mix(near, in_mip(place, mips_[low + 1]), share) : near;
     }
 
 private:
-    [[nodiscard]] Texel in_mip(glm::vec3 place, int mip) const {
-        const int w = std::max(1, images_.width >> mip), h = std::max(1, images_.height >> mip);
+    struct Mip {
+        int width, height;
+        std::vector<Texel> texels;
+    };
+    [[nodiscard]] Texel in_mip(glm::vec3 place, const Mip& mip) const {
+        const int w = mip.width, h = mip.height;
         const float u = (place.x - std::floor(place.x)) * static_cast<float>(w) - 0.5f;
         const float v = (repeat_v_ ? place.y - std::floor(place.y) : place.y) * static_cast<float>(h) - 0.5f;
-        const auto column = static_cast<int>(std::floor(u)), row = static_cast<int>(std::floor(v));
-        const float a = u - static_cast<float>(column), b = v - static_cast<float>(row);
-        const auto texel = [&](int x, int y) {
-            x = (x + w) % w;
-            y = repeat_v_ ? (y + h) % h : std::clamp(y, 0, h - 1);
-            const float* sums = &images_.mips[static_cast<std::size_t>(mip)][((static_cast<std::size_t>(place.z) * h + y) * w + x) * MarchImages::kFloats];
-            return Texel{sums[MarchImages::kDensity], glm::dot(glm::vec3(sums[0], sums[1], sums[2]), kLuminance), {sums[4], sums[5], sums[6]}};
-        };
-        return mix(mix(texel(column, row), texel(column + 1, row), a), mix(texel(column, row + 1), texel(column + 1, row + 1), a), b);
+        const float left = std::floor(u), down = std::floor(v);
+        const float a = u - left, b = v - down;
+        // u is within [-0.5, w - 0.5]: one step over an end comes back at the other.
+        const auto around = [](int i, int n) { return i < 0 ? i + n : i >= n ? i - n : i; };
+        const auto column = static_cast<int>(left), row = static_cast<int>(down);
+        const int x0 = around(column, w), x1 = around(column + 1, w);
+        const int y0 = repeat_v_ ? around(row, h) : std::clamp(row, 0, h - 1), y1 = repeat_v_ ? around(row + 1, h) : std::clamp(row + 1, 0, h - 1);
+        const Texel* layer = mip.texels.data() + static_cast<std::size_t>(place.z) * static_cast<std::size_t>(w * h);
+        return mix(mix(layer[y0 * w + x0], layer[y0 * w + x1], a), mix(layer[y1 * w + x0], layer[y1 * w + x1], a), b);
     }
-    const MarchImages& images_;
+    std::vector<Mip> mips_;
     bool repeat_v_;
+};
+
+/// A set's march and its textures as rays read them, by kind.
+struct Textures {
+    const MarchData& data;
+    std::vector<Texels> kinds;
+
+    explicit Textures(const MarchData& of) : data(of) {
+        for (int kind = 0; kind <= shared::kMarchSets; ++kind)
+            kinds.emplace_back(kind == kMarchColumns ? of.columns : of.slabs[static_cast<std::size_t>(kind)], kind == kMarchColumns);
+    }
 };
 
 struct Case {
@@ -130,7 +155,9 @@ double footprint_of(const Case& which, float side, double width) {
 /// Means of what the march sees with a factor.
 class MarchMean {
 public:
-    MarchMean(const MarchData& data, const Case& which, int rays) : data_(data), case_(which), rays_(rays) {
+    MarchMean(const Textures& textures, const Case& which, int rays)
+        : data_(textures.data), texels_(textures.kinds[static_cast<std::size_t>(which.kind)]), case_(which), rays_(rays) {
+        const MarchData& data = textures.data;
         const double texel = data.medium.size.x / static_cast<double>(shared::kMarchTexels);
         const double softness = shared::kSlabSoftness;
         footprint_ = footprint_of(which, data.medium.size.x,
@@ -174,7 +201,6 @@ private:
         plan.kind = case_.kind;
         plan.axis = std::abs(plan.level.x) > std::abs(plan.level.y) ? 0 : 1;
         shared::march_settle(medium, plan);
-        const Reader reader(plan.kind == kMarchColumns ? data_.columns : data_.slabs[plan.kind], plan.kind == kMarchColumns);
         const float scale = factor * plan.density, steepness = shared::march_steepness(medium, plan, path.way.y);
         shared::MarchWalk at = shared::march_begin(path);
         const shared::Light light = sun_from(0); // its height alone counts on the way
@@ -184,7 +210,7 @@ private:
         for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, at) && through > shared::kMarchEnd; ++n) {
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
             const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
-            const Texel texel = reader.at(place, step.mip - shared::march_base(plan.kind));
+            const Texel texel = texels_.at(place, step.mip - shared::march_base(plan.kind));
             const double lost = through * (1 - std::exp(-shared::march_beside(scale * step.depth * texel.density)));
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
             const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
@@ -202,6 +228,7 @@ private:
     }
 
     const MarchData& data_;
+    const Texels& texels_;
     Case case_;
     int rays_;
     double footprint_;
@@ -264,12 +291,13 @@ void report_factors(const std::vector<std::array<double, kMips.size()>>& found) 
 } // namespace
 
 std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, int rays, int threads) {
-    const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 40);
+    const int true_rays = std::min(rays, kTruthRays), marched = std::max(true_rays / kMarched, 10);
     constexpr std::size_t kKinds = shared::kMarchSets + 1, kElevations = kElevationsDeg.size();
     constexpr std::size_t kDensities = grass::kMarchDensities.size();
     // [depth, light][density][elevation][kind][mip]
     constexpr std::size_t kTable = kDensities * kElevations * kKinds;
     std::vector<std::array<double, kMips.size()>> found(2 * kTable);
+    const Textures textures(data);
     base::Progress progress("the march's correction", kDensities * kElevations);
     parallel_for(kDensities * kElevations, resolve_threads(threads), [&](std::size_t i, int) {
         const double density = grass::kMarchDensities[i / kElevations], elevation = kElevationsDeg[i % kElevations];
@@ -279,7 +307,7 @@ std::vector<float> fit_march(const MarchData& data, const HeightCaster& truth, i
             for (std::size_t m = 0; m < kMips.size(); ++m) {
                 auto& row = found[i * kKinds + kind];
                 const bool rare = kind != kMarchColumns && (elevation > 75 || kMips[m] > 6); // columns show such views
-                const MarchMean march(data, {static_cast<int>(kind), kMips[m], elevation, density}, marched);
+                const MarchMean march(textures, {static_cast<int>(kind), kMips[m], elevation, density}, marched);
                 row[m] = rare && m > 0 ? row[m - 1] : fit_one(march, wanted, m > 0 ? row[m - 1] : 1);
                 const Marched seen = march.at(row[m], true);
                 light[kind][m] = seen.light / std::max(seen.seen, 1e-9);

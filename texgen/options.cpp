@@ -113,6 +113,7 @@ void declare_overrides(CLI::App& app, BakeCommandOptions& o) {
         {"--layers", "texture.layers", "horizontal layers at level 0"},
         {"--slices", "texture.slices", "vertical slices an axis at level 0"},
         {"--levels", "texture.levels", "levels, each of half the size, layers and slices"},
+        {"--far-rays", "texture.far_rays", "rays of a view of the far table and the march's correction: less noise, more time"},
     };
     for (const auto& entry : kOverrides)
         declare(app, entry.option, "N", entry.help, [&o, entry](const std::string& text) {
@@ -235,6 +236,7 @@ void declare_import(CLI::App& app, Options& o) {
     declare_count(app, "--layers", "horizontal layers at level 0", {2, 256}, o.import.layers);
     declare_count(app, "--slices", "vertical slices an axis at level 0", {2, 256}, o.import.slices);
     declare_count(app, "--levels", "levels, each of half the size, layers and slices", {1, 4}, o.import.levels);
+    declare_count(app, "--far-rays", "rays of a view of the far table and the march's correction: less noise, more time", {256, 1048576}, o.import.far_rays);
     app.add_flag("--seam", o.import.seam, "make the volume periodic first, as texgen seam does");
     declare_cut(app, o.import.cut);
     declare(app, "--name", "NAME", "name of the set", [&o](const std::string& text) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "texgen/preset.h"
 
 namespace sward::texgen {
 
@@ -74,6 +75,7 @@ struct ImportOptions : CommonOptions {
     int layers = 16;
     int slices = 16;
     int levels = 4;
+    int far_rays = kFarRays;     ///< of a view, as in a preset
     bool seam = false;
     double cut = 0.125;          ///< as SeamOptions
     Compression compression;

@@ -36,23 +36,35 @@ public:
     [[nodiscard]] double side() const { return side_; }
 
 private:
+    /// A segment of an outline as rays meet it: what does not depend on the ray, reckoned once.
+    struct Piece {
+        glm::dvec3 centre, along, across, normal; ///< root end, to the tip end, unit width direction, their cross product
+        double plane;                             ///< of the points in it: dot(point, normal)
+        double skew, stretch;                     ///< dot(along, across); 1 / (|along|^2 - skew^2)
+        double half, taper;                       ///< half width at the root end, and how it changes to the tip end
+    };
+    /// A piece in a cell that it reaches into. The ball lies beside its neighbours' in memory: most pieces are passed by without being read.
     struct Item {
-        std::uint32_t blade;
-        float low, high; ///< of the segment's y
-        std::uint8_t segment;
-        std::int8_t shift_x, shift_z; ///< image of the torus that reaches into the cell
+        glm::vec3 middle; ///< of a ball about the piece, where it reaches into the cell
+        float radius;
+        std::uint32_t piece;        ///< blade * kSegments + segment
+        std::int8_t tile_x, tile_z; ///< image of the torus that the piece is moved by
     };
 
-    void bin(std::uint32_t blade, int segment);
-    void meet(const Item& item, glm::dvec3 origin, glm::dvec3 direction,
-              std::optional<RayHit>& best) const;
-    [[nodiscard]] const std::vector<Item>& cell(int x, int z) const;
+    void make_piece(const Outline& outline, int segment);
+    template<class Visit> void each_cell(std::uint32_t piece, Visit&& visit) const;
+    void meet(const Item& item, const glm::dvec3& origin, const glm::dvec3& direction, std::optional<RayHit>& best) const;
+    void finish(RayHit& hit) const;
+    [[nodiscard]] std::span<const Item> cell(int x, int y, int z) const;
 
     double side_;
     double canopy_;
-    int cells_;
+    double layer_ = 1; ///< height of a cell, metres
+    double top_ = 0;   ///< of all blades
     std::vector<Outline> outlines_;
-    std::vector<std::vector<Item>> grid_;
+    std::vector<Piece> pieces_;
+    std::vector<Item> items_;          ///< cell after cell
+    std::vector<std::uint32_t> first_; ///< of a cell's items; one more at the end
 };
 
 /// Ray `number` of a sequence that spreads evenly over places and azimuths, from the canopy's top

@@ -54,7 +54,7 @@ struct SeamCut {
 /// Joints of a tiling against the interior.
 struct JointReport {
     double joint = 0;    ///< mean gradient across the joint, the larger of both axes
-    double interior = 0; ///< median over the interior's columns and rows of the same mean gradient
+    double interior = 0; ///< median over the interior's columns and rows of the same mean gradient; the largest where most have none
     [[nodiscard]] std::string words() const; ///< "1.30 times the interior's"
     [[nodiscard]] double ratio() const { return interior > 0 ? joint / interior : joint > 0 ? 1e9 : 0; }
 };

@@ -60,7 +60,9 @@ JointReport joints(std::span<const Cell> cells, const glm::ivec3& size, int u, i
         std::vector<double> all = gradients(plan, size[u], size[v], across);
         const double joint = all.back();
         all.pop_back();
-        const JointReport own{joint, median(std::move(all))};
+        const double most = all.empty() ? 0 : *std::ranges::max_element(all);
+        const double middle = median(std::move(all));
+        const JointReport own{joint, middle > 0 ? middle : most}; // most columns of a few posts have none: a joint like the worst of them is none
         if (report.interior == 0 || own.ratio() > report.ratio())
             report = own;
     }

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/flight.h"
 #include "app/io.h"
+#include "app/joystick_list.h"
 #include "app/load_screen.h"
 #include "app/paths.h"
 #include "app/pose_source.h"
@@ -61,7 +62,7 @@ private:
 class Viewer {
 public:
     explicit Viewer(const Options& options)
-        : options_(options), record_(record_of(options)), window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
+        : options_(options), record_(record_of(options)), links_(open_feed(options)), window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
         gl::require_gl45();
     }
 
@@ -112,7 +113,7 @@ private:
         const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
         scene::settle_place(start, on_earth, "--camera");
         const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg : SunDay::kUsualLatitude_deg;
-        const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, on_earth);
+        const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, {links_, on_earth, links_.out ? grass_share_of(world) : GrassShare()});
         Field field = build(std::move(world), screen);
         if (options_.exit_after == 0)
             note_recent(recent_file(), scene.file);
@@ -133,6 +134,7 @@ private:
 
     const Options& options_;
     std::optional<FlightRecord> record_; ///< --replay
+    FeedLinks links_; ///< opened before the window: a port in use is told of first
     Window window_;
     Panel panel_;
 };
@@ -140,6 +142,8 @@ private:
 } // namespace
 
 void run_view(const Options& options) {
+    if (options.list_joysticks)
+        return list_joysticks();
     scene::Scene scene = first_scene(options);
     static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
     gl::DebugMessages messages;

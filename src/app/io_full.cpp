@@ -2,6 +2,7 @@
 #include "app/io.h"
 
 #include "assets/assets.h"
+#include "assets/place_finder.h"
 
 namespace sward::app {
 
@@ -23,7 +24,7 @@ scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Height
 scene::PlaceOnEarth place_on_earth(const scene::Heightfield& ground) {
     if (!ground.origin)
         return {};
-    return [frame = *ground.origin](double latitude, double longitude) { return assets::local_place(frame, latitude, longitude); };
+    return assets::place_finder(*ground.origin);
 }
 
 scene::Mesh load_mesh(const std::filesystem::path& path) {

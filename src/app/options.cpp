@@ -221,12 +221,22 @@ void declare_view(CLI::App& app, Options* o) {
                  "scene file, or directory with scene.toml; default: the one that ships",
                  &o->scene);
     declare_frame_options(app, o);
+    declare(app, "--native-fdm", "udp:[HOST:]PORT",
+            "the eye is where another program's aircraft is: FlightGear's net_fdm, as JSBSim and FlightGear send it. Without HOST from this machine alone",
+            [=](const std::string& text) { o->native_fdm = parse_endpoint("--native-fdm", text, "udp:PORT or udp:HOST:PORT, such as udp:5550"); });
+    declare(app, "--udp-out", "udp:HOST:PORT", "tells a program once a picture the ground's height, what stands on it and the wind, under the aircraft",
+            [=](const std::string& text) {
+                o->udp_out = parse_endpoint("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
+                if (o->udp_out->host.empty() || o->udp_out->port == 0)
+                    throw option_error("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
+            });
+    app.add_flag("--list-joysticks", o->list_joysticks, "prints what is plugged in and what controls.toml does with it, and ends");
     declare(app, "--window", "WxH[+X+Y]", "the window's size and the place of its corner on the desktop, in pixels",
             [=](const std::string& text) { o->window = parse_window("--window", text); })
         ->excludes("--size");
     declare_path(app, "--record", "FILE", "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
     declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
-    app.get_option("--replay")->excludes("--record")->excludes("--camera");
+    app.get_option("--replay")->excludes("--record")->excludes("--camera")->excludes("--native-fdm");
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
         o->exit_after = static_cast<int>(parse_integer("--frames", text, kExitAfter));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "feed/udp_socket.h"
 #include "render/settings.h"
 #include "scene/scene.h"
 
@@ -69,6 +70,9 @@ struct Options {
     glm::dvec2 at{0, 0};           ///< world x, z that the window stands around
 
     // view
+    std::optional<feed::Endpoint> native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
+    std::optional<feed::Endpoint> udp_out;    ///< whom to tell what lies under it
+    bool list_joysticks = false;              ///< in the place of a window
     std::filesystem::path record; ///< written as the flight goes on; empty: none
     std::optional<WindowPlace> window; ///< none: of `frame`'s size
     int exit_after = 0; ///< frames; 0: until it is closed

@@ -170,6 +170,12 @@ scene::Pose parse_eye(const std::string& option, const std::string& text) {
     }
 }
 
+feed::Endpoint parse_endpoint(std::string_view option, std::string_view text, std::string_view expected) {
+    if (const auto endpoint = feed::parse_endpoint(text))
+        return *endpoint;
+    throw option_error(option, text, expected);
+}
+
 glm::dvec2 parse_place(std::string_view option, std::string_view text) {
     constexpr NumberRange kPlace{-1e6, 1e6, "metres"};
     const std::size_t comma = text.find(',');

@@ -47,6 +47,9 @@ struct NumberRange {
 /// "x,y,z" or a whole pose.
 [[nodiscard]] scene::Pose parse_eye(const std::string& option, const std::string& text);
 
+/// "udp:PORT" or "udp:HOST:PORT".
+[[nodiscard]] feed::Endpoint parse_endpoint(std::string_view option, std::string_view text, std::string_view expected);
+
 /// The value that `text` names in a table of choices.
 template<class T, std::size_t N>
 [[nodiscard]] T parse_choice(std::string_view option, std::string_view text,

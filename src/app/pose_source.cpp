@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/controls.h"
+#include "app/feed_source.h"
 
 namespace sward::app {
 namespace {
@@ -25,8 +26,15 @@ private:
 
 } // namespace
 
-std::unique_ptr<PoseSource> make_pose_source(const Options&, const scene::PlaceOnEarth&) {
-    return std::make_unique<FreeFlight>();
+std::unique_ptr<PoseSource> make_pose_source(const Options&, const SourceParts& parts) {
+    std::unique_ptr<PoseSource> source;
+    if (parts.links.in)
+        source = make_feed_source(parts.links.in, parts.on_earth);
+    else
+        source = std::make_unique<FreeFlight>();
+    if (parts.links.out)
+        source = with_report(std::move(source), parts.links.out, parts.grass);
+    return source;
 }
 
 } // namespace sward::app

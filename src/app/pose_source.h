@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "app/feed_links.h"
 #include "app/flow_overlay.h"
 #include "app/options.h"
 #include "app/view_pose.h"
@@ -33,8 +34,13 @@ public:
     [[nodiscard]] virtual std::string note() const { return {}; }
 };
 
-/// The source that the options name: the one place where it is chosen. `on_earth` is null where the terrain has no place on Earth.
-/// Throws Error.
-[[nodiscard]] std::unique_ptr<PoseSource> make_pose_source(const Options& options, const scene::PlaceOnEarth& on_earth);
+/// What a source may be made of beside the options.
+struct SourceParts {
+    FeedLinks links;      ///< open_feed()
+    scene::PlaceOnEarth on_earth; ///< null where the terrain has no place on Earth
+    GrassShare grass;     ///< grass_share_of(), where `links.out` stands
+};
+/// The source that the options name: the one place where it is chosen. Throws Error.
+[[nodiscard]] std::unique_ptr<PoseSource> make_pose_source(const Options& options, const SourceParts& parts);
 
 } // namespace sward::app

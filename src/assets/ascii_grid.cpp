@@ -22,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDefaultNodata = -9999; // Esri's, where the header names none
+constexpr std::array<std::string_view, 10> kKeys = {"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter",
+                                                    "cellsize", "dx", "dy", "nodata_value"};
 
 std::string lower(std::string_view text) {
     std::string small(text);
@@ -75,8 +77,6 @@ base::Error bad(const fs::path& path, int line, std::string_view what, std::stri
 }
 
 Header read_header(const fs::path& path, Words& words) {
-    constexpr std::array<std::string_view, 10> kKeys = {"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter",
-                                                        "cellsize", "dx", "dy", "nodata_value"};
     Header header;
     while (true) {
         const std::string_view key = words.next();
@@ -101,8 +101,8 @@ Header read_header(const fs::path& path, Words& words) {
 } // namespace
 
 bool is_ascii_grid(std::span<const std::byte> head) {
-    constexpr std::string_view kFirst = "ncols";
-    return head.size() > kFirst.size() && lower({reinterpret_cast<const char*>(head.data()), kFirst.size()}) == kFirst;
+    const std::string text = lower({reinterpret_cast<const char*>(head.data()), head.size()});
+    return std::any_of(kKeys.begin(), kKeys.end(), [&](std::string_view key) { return text.starts_with(key); });
 }
 
 std::vector<float> read_ascii_grid(const fs::path& path, int width, int height) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -80,6 +81,9 @@ scene::Heightfield from_picture(const scene::TerrainSpec& spec) {
         throw bad(spec.elevation, "terrain.height_m", "the key",
                   "none: floating point is metres already");
     apply_height_range(spec, channel.full_scale, channel.values);
+    if (channel.full_scale == 0)
+        std::replace_if(channel.values.begin(), channel.values.end(), [](float value) { return is_bare_void(value, false); },
+                        std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (std::abs(channel.values[i]) > 1e5f) // NaN: a void
             throw bad(

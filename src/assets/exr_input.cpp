@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "assets/exr_input.h"
 
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "assets/image_file.h"
 #include "assets/limits.h"
@@ -29,6 +31,13 @@ base::Error ExrInput::decode_error() const {
 }
 
 void ExrInput::read(int first, int end, float* into) {
+    if (end == first + 1 && spec_.channelformat(first) == OIIO::TypeDesc::UINT32) { // the library would scale numbers to 0..1
+        std::vector<std::uint32_t> numbers(std::size_t(spec_.width) * std::size_t(spec_.height));
+        if (!input_->read_image(0, 0, first, end, OIIO::TypeDesc::UINT32, numbers.data()))
+            throw decode_error();
+        std::transform(numbers.begin(), numbers.end(), into, [](std::uint32_t n) { return static_cast<float>(n); });
+        return;
+    }
     if (!input_->read_image(0, 0, first, end, OIIO::TypeDesc::FLOAT, into))
         throw decode_error();
 }

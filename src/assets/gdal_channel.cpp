@@ -35,7 +35,7 @@ double read_scale(GDALRasterBandH band, const std::filesystem::path& path, std::
     const GDALDataType type = GDALGetRasterDataType(band);
     const double full = full_scale_of(band);
     if (full == 0 && type != GDT_Float32 && type != GDT_Float64)
-        throw bad(path, "type of the pixels", GDALGetDataTypeName(type),
+        throw bad(path, "type of the pixels", type_name(band),
                   "8 or 16 bits unsigned, or floating point; for classes [terrain.classes]");
     return full;
 }
@@ -45,14 +45,18 @@ void require_real(GDALRasterBandH band, const std::filesystem::path& path) {
         throw bad(path, "type of the pixels", GDALGetDataTypeName(GDALGetRasterDataType(band)), "whole numbers");
 }
 
-/// Indices to the red of their colours.
-void look_up(GDALColorTableH table, std::vector<float>& values) {
-    std::array<float, 256> red{};
-    for (int i = 0; i < std::min(256, GDALGetColorEntryCount(table)); ++i)
-        red[static_cast<std::size_t>(i)] = GDALGetColorEntry(table, i)->c1;
-    for (float& value : values)
-        if (!std::isnan(value))
-            value = red[static_cast<std::size_t>(std::clamp(value, 0.0f, 255.0f))];
+/// Indices to the red of their colours, unless they are classes; a colour of alpha 0 is no value, as a pixel's alpha is.
+void look_up(GDALColorTableH table, bool classes, std::vector<float>& values) {
+    const int count = GDALGetColorEntryCount(table);
+    for (float& value : values) {
+        if (std::isnan(value))
+            continue;
+        const GDALColorEntry* colour = value >= 0 && value < static_cast<float>(count) ? GDALGetColorEntry(table, static_cast<int>(value)) : nullptr;
+        if (colour && colour->c4 == 0)
+            value = std::numeric_limits<float>::quiet_NaN();
+        else if (!classes)
+            value = colour ? colour->c1 : 0.0f;
+    }
 }
 
 } // namespace
@@ -82,9 +86,9 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
     for (std::size_t i = 0; i < valid.size(); ++i)
         if (valid[i] == 0)
             channel.values[i] = std::numeric_limits<float>::quiet_NaN();
-    if (GDALColorTableH table = GDALGetRasterColorTable(band); table && !classes) {
-        look_up(table, channel.values);
-        channel.full_scale = 255;
+    if (GDALColorTableH table = GDALGetRasterColorTable(band)) {
+        look_up(table, classes, channel.values);
+        channel.full_scale = classes ? 0 : 255;
     }
     std::array<double, 6> affine{};
     channel.turned_loose = !GDALGetSpatialRef(dataset.get()) && GDALGetGeoTransform(dataset.get(), affine.data()) == CE_None;

@@ -42,14 +42,10 @@ double unit_of(GDALRasterBandH band, const fs::path& path, bool& has_unit) {
     return *unit;
 }
 
-/// What the writers of voids leave undeclared: the codes of the SRTM and the USGS, the largest float, and NaN.
-bool is_bare_void(float value) {
-    return std::isnan(value) || scene::is_void(value) || (std::isfinite(value) && std::abs(value) >= 3.4e38f);
-}
-
 /// Voids become NaN, the rest metres; anything else that is not a height is refused.
 void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std::uint8_t>& valid, Raster& raster) {
-    int has_scale = 0, has_offset = 0;
+    int has_scale = 0, has_offset = 0, has_nodata = 0;
+    GDALGetRasterNoDataValue(band, &has_nodata);
     double scale = GDALGetRasterScale(band, &has_scale),
            offset = GDALGetRasterOffset(band, &has_offset);
     scale = has_scale ? scale : 1;
@@ -63,7 +59,7 @@ void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std
     for (std::size_t i = 0; i < raster.values.size(); ++i) {
         float& value = raster.values[i];
         // Scaled, -32000 may be a height.
-        const bool no_height = (!valid.empty() && valid[i] == 0) || std::isnan(value) || (plain && is_bare_void(value));
+        const bool no_height = (!valid.empty() && valid[i] == 0) || std::isnan(value) || (plain && is_bare_void(value, has_nodata != 0));
         const double metres = (double(value) * scale + offset) * unit;
         if (!no_height && !(std::abs(metres) <= kHighest_m))
             throw bad(
@@ -107,6 +103,11 @@ Raster read_gdal_raster(const fs::path& path, int band) {
     raster.placement = place_raster(dataset.get(), path, nullptr);
     raster.bare_spacing_m = bare_spacing(dataset.get());
     return raster;
+}
+
+bool is_bare_void(float value, bool declared) {
+    return std::isnan(value) || scene::is_void(value) || (std::isfinite(value) && std::abs(value) >= 3.4e38f) ||
+           (!declared && (value == -9999 || value == -99999 || value == -2147483648.0f));
 }
 
 std::string gdal_versions() {

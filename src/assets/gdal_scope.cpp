@@ -95,6 +95,9 @@ void GdalScope::read(GDALRasterBandH band, const std::filesystem::path& path,
                      0, 0) != CE_None)
         throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode",
                                 error("broken data"), "a whole picture");
+    if (is_signed_byte(band))
+        for (float& value : values)
+            value -= value > 127 ? 256.0f : 0.0f;
 }
 
 std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band, const std::filesystem::path& path,
@@ -144,9 +147,18 @@ GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& p
     return GDALGetRasterBand(dataset, std::max(number, 1));
 }
 
+bool is_signed_byte(GDALRasterBandH band) {
+    const char* type = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
+    return GDALGetRasterDataType(band) == GDT_Byte && type && std::string_view(type) == "SIGNEDBYTE";
+}
+
+const char* type_name(GDALRasterBandH band) {
+    return is_signed_byte(band) ? "Int8" : GDALGetDataTypeName(GDALGetRasterDataType(band));
+}
+
 double full_scale_of(GDALRasterBandH band) {
     const GDALDataType type = GDALGetRasterDataType(band);
-    if (type != GDT_Byte && type != GDT_UInt16)
+    if ((type != GDT_Byte && type != GDT_UInt16) || is_signed_byte(band))
         return 0;
     const int whole = type == GDT_Byte ? 8 : 16;
     const char* bits = GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE");

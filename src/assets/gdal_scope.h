@@ -46,6 +46,11 @@ private:
 /// kBadInput where there is none, kOverLimit for a picture of more than four.
 [[nodiscard]] GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number, const char* what);
 
+/// Does a band hold signed bytes? The GDAL that has no type for them says so beside, and reads them as unsigned.
+[[nodiscard]] bool is_signed_byte(GDALRasterBandH band);
+/// The type of a band's pixels, for messages.
+[[nodiscard]] const char* type_name(GDALRasterBandH band);
+
 /// Largest value that a band of unsigned integers of up to 16 bits can hold, by the bits that it says it uses (1 to 16); 0 for every
 /// other type.
 [[nodiscard]] double full_scale_of(GDALRasterBandH band);

@@ -124,6 +124,13 @@ Channel read_exr_channel(const std::filesystem::path& path, const ChannelRequest
         base::log_warning(fmt::format("{}: {} channels; the first is used", path.string(), spec.nchannels));
     std::vector<float> data(std::size_t(spec.width) * std::size_t(spec.height));
     input.read(band, band + 1, data.data());
+    if (spec.alpha_channel >= 0 && spec.alpha_channel != band) {
+        std::vector<float> alpha(data.size());
+        input.read(spec.alpha_channel, spec.alpha_channel + 1, alpha.data());
+        for (std::size_t i = 0; i < data.size(); ++i)
+            if (alpha[i] == 0)
+                data[i] = std::numeric_limits<float>::quiet_NaN();
+    }
     if (input.has_more())
         base::log_warning(path.string() + ": holds several pictures; the first is used");
     return in_display_window(path, spec, input.file_bytes(), request.least_side, data);

@@ -51,13 +51,13 @@ LayerImage read_exr(const std::filesystem::path& path) {
 
 Type type_of(GDALRasterBandH band, const std::filesystem::path& path) {
     const GDALDataType type = GDALGetRasterDataType(band);
-    if (type == GDT_Byte && GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE") == nullptr)
+    if (type == GDT_Byte && GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE") == nullptr && !is_signed_byte(band))
         return Type::kUint8;
     if (type == GDT_UInt16)
         return Type::kUint16;
     if (type == GDT_Float32)
         return Type::kFloat;
-    throw bad(path, "type of the pixels", type == GDT_Byte ? "less than 8 bits" : GDALGetDataTypeName(type),
+    throw bad(path, "type of the pixels", type == GDT_Byte && !is_signed_byte(band) ? "less than 8 bits" : type_name(band),
               "8 or 16 bits unsigned, or 32 bits floating point");
 }
 

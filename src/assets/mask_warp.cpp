@@ -16,6 +16,7 @@ namespace {
 constexpr double kMostTexels = 1 << 27;     // as fine as the mask's own pixels
 constexpr double kMostSpreadTexels = 1 << 24; // only to place the borders of wide pixels
 constexpr double kMostFineTexels = 1 << 22;  // that are finer than the posts
+constexpr double kMostPerPixel = 64;         // texels for one of the mask, or of the posts
 constexpr int kMostSamples = 16;            // a texel, along each side
 
 struct Rectangle {
@@ -59,13 +60,34 @@ Rectangle overlap(const Channel& channel, const scene::Heightfield& ground, cons
     return {low, high, false};
 }
 
-/// Metres of a pixel, the finer way.
-double pixel_metres(const Channel& channel, glm::dvec2 place) {
+struct Pixels {
+    double finest_m = NAN; ///< the finer side of one, as most of the area has it; NaN where nothing is known
+    double count = 0;      ///< that lie in the area
+};
+
+/// The mask's pixels in an area, from places all over it: about a pole those of longitudes are of every width down to none.
+Pixels pixels_in(const Channel& channel, const Rectangle& area) {
+    constexpr int kPlaces = 8; // a side
     constexpr double kStep_m = 1;
-    std::vector<glm::dvec2> cross = {{place.x, -place.y}, {place.x + kStep_m, -place.y}, {place.x, -place.y + kStep_m}};
-    channel.placement->metres_to_posts(cross);
-    const double finest = std::max(glm::length(cross[1] - cross[0]), glm::length(cross[2] - cross[0]));
-    return std::isfinite(finest) && finest > 0 ? kStep_m / finest : NAN;
+    const glm::dvec2 size = area.high - area.low;
+    std::vector<double> finest;
+    double per_m2 = 0;
+    for (int n = 0; n < kPlaces * kPlaces; ++n) {
+        const glm::dvec2 place = area.low + size * (glm::dvec2(n % kPlaces, n / kPlaces) + 0.5) / double(kPlaces);
+        std::vector<glm::dvec2> cross = {{place.x, -place.y}, {place.x + kStep_m, -place.y}, {place.x, -place.y + kStep_m}};
+        channel.placement->metres_to_posts(cross);
+        const glm::dvec2 east = (cross[1] - cross[0]) / kStep_m, north = (cross[2] - cross[0]) / kStep_m;
+        const double most = std::max(glm::length(east), glm::length(north));
+        if (!std::isfinite(most) || most <= 0 || most > channel.width)
+            continue; // off the map, or across its seam
+        finest.push_back(1 / most);
+        per_m2 += std::abs(east.x * north.y - east.y * north.x);
+    }
+    if (finest.empty())
+        return {};
+    const auto middle = finest.begin() + static_cast<std::ptrdiff_t>(finest.size() / 2);
+    std::nth_element(finest.begin(), middle, finest.end());
+    return {*middle, per_m2 / double(finest.size()) * size.x * size.y};
 }
 
 struct Sampling {
@@ -75,12 +97,12 @@ struct Sampling {
 };
 
 Sampling choose(const Channel& channel, bool by_class, const Rectangle& area, glm::dvec2 post_m) {
-    double pixel = pixel_metres(channel, 0.5 * (area.low + area.high));
+    const Pixels pixels = pixels_in(channel, area);
     const double post = std::min(post_m.x, post_m.y);
-    if (!std::isfinite(pixel))
-        pixel = post;
+    const double pixel = std::isfinite(pixels.finest_m) ? pixels.finest_m : post;
     const glm::dvec2 size = area.high - area.low;
-    const double most = pixel > post ? kMostSpreadTexels : kMostTexels;
+    const double known = kMostPerPixel * std::max(pixels.count, size.x * size.y / (post * post)); // finer than that, nothing new is to be had
+    const double most = std::min(known, pixel > post ? kMostSpreadTexels : kMostTexels);
     const double least = std::max(std::sqrt(size.x * size.y / most), std::max(size.x, size.y) / (kMostSide - 1));
     Sampling sampling;
     // Pixels about as wide as the posts, or wider: finer, so that their borders lie within a fraction of a post.

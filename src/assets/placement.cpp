@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <string>
 
@@ -15,6 +16,7 @@
 
 #include "assets/assets.h"
 #include "assets/gdal_scope.h"
+#include "assets/place_finder.h"
 #include "base/error.h"
 #include "base/room.h"
 
@@ -205,23 +207,30 @@ private:
 
 } // namespace
 
-glm::dvec2 local_place(const scene::Georeference& frame, double latitude_deg, double longitude_deg) {
+scene::PlaceOnEarth place_finder(const scene::Georeference& frame) {
     if (frame.crs.empty())
-        return scene::linear_place(frame, latitude_deg, longitude_deg);
+        return [frame](double latitude_deg, double longitude_deg) { return scene::linear_place(frame, latitude_deg, longitude_deg); };
     const GdalScope silence;
     Reference local = own(OSRNewSpatialReference(nullptr));
     std::string wkt = frame.crs;
     char* text = wkt.data();
-    std::vector<glm::dvec2> point = {{std::remainder(longitude_deg, 360.0), latitude_deg}};
-    Transformation to_local;
+    auto to_local = std::make_shared<Transformation>(); // costs milliseconds, a place microseconds
     if (OSRImportFromWkt(handle(local), &text) == OGRERR_NONE)
-        to_local = between(wgs84(), local);
-    if (to_local)
-        transform(to_local, point);
-    if (!to_local || !std::isfinite(point[0].x + point[0].y))
-        throw base::Error(base::ExitCode::kBadInput, fmt::format("geo: found latitude {}, longitude {}, expected a place that the terrain's frame can hold",
-                                                                 latitude_deg, longitude_deg));
-    return {point[0].x, -point[0].y};
+        *to_local = between(wgs84(), local);
+    return [to_local](double latitude_deg, double longitude_deg) {
+        const GdalScope quiet;
+        std::vector<glm::dvec2> point = {{std::remainder(longitude_deg, 360.0), latitude_deg}};
+        if (*to_local)
+            transform(*to_local, point);
+        if (!*to_local || !std::isfinite(point[0].x + point[0].y))
+            throw base::Error(base::ExitCode::kBadInput, fmt::format("geo: found latitude {}, longitude {}, expected a place that the terrain's frame can hold",
+                                                                     latitude_deg, longitude_deg));
+        return glm::dvec2(point[0].x, -point[0].y);
+    };
+}
+
+glm::dvec2 local_place(const scene::Georeference& frame, double latitude_deg, double longitude_deg) {
+    return place_finder(frame)(latitude_deg, longitude_deg);
 }
 
 std::unique_ptr<Placement> place_raster(GDALDatasetH dataset, const fs::path& path, const scene::Georeference* frame) {

@@ -74,6 +74,9 @@ private:
     std::vector<std::string> known_;
 };
 
+/// A whole file's text. Throws Error: kBadInput with the line where it is no TOML, kOverLimit for keys that nest too deep.
+[[nodiscard]] toml::table parse_toml(const std::string& text, const std::filesystem::path& file);
+
 /// What a name of a camera, path or arrow may be: it stands on command lines, where a comma means a
 /// pose.
 [[nodiscard]] bool is_name(std::string_view text);

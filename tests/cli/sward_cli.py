@@ -82,10 +82,11 @@ class Result:
 
 
 def environment(**changes):
-    """Software rendering, no display, caches of our own. A value of None removes the variable."""
+    """Software rendering, no display, caches of our own; shaders stay compiled whatever cache a test asks for. A value of None removes the
+    variable."""
     WORK.mkdir(parents=True, exist_ok=True)  # Mesa makes one folder, not two: without this every run compiles every shader
     env = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1", EGL_PLATFORM="surfaceless",
-               XDG_CACHE_HOME=str(WORK / "cache"), LC_ALL="C.UTF-8")
+               XDG_CACHE_HOME=str(WORK / "cache"), MESA_SHADER_CACHE_DIR=str(WORK / "cache"), LC_ALL="C.UTF-8")
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         env.pop(name, None)
     for name, value in changes.items():
@@ -161,6 +162,14 @@ def snapshot(folder):
     return {name: value if not Path(folder, name).is_dir() else value[0] for name, value in names.items()}
 
 
+def copy_what_stays(source, target):
+    """Copies a file of a folder that other programs are working in."""
+    try:
+        shutil.copyfile(source, target)
+    except FileNotFoundError:
+        pass
+
+
 class CliCase(unittest.TestCase):
     """A test in a folder of its own, `self.dir`, in which `scene()` makes a scene."""
 
@@ -175,6 +184,15 @@ class CliCase(unittest.TestCase):
             shutil.copytree(tiny_set(), self.dir / "set")
         (self.dir / name).write_text(text)
         return self.dir / name
+
+    def own_shaders(self):
+        """An environment with a copy of the compiled shaders: for a program that must not write them to the end."""
+        folder = tempfile.TemporaryDirectory(prefix="sward-shaders-")
+        self.addCleanup(folder.cleanup)
+        kept = WORK / "cache/mesa_shader_cache"
+        if kept.exists():
+            shutil.copytree(kept, Path(folder.name) / kept.name, ignore=shutil.ignore_patterns("*.tmp"), copy_function=copy_what_stays)
+        return environment(MESA_SHADER_CACHE_DIR=folder.name)
 
     def sward(self, *arguments, **options):
         return run("sward", *arguments, cwd=self.dir, **options)

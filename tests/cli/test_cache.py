@@ -95,7 +95,7 @@ class Cache(CliCase):
         self.refuse(5, ["XDG_CACHE_HOME"], "render", "scene.toml", "-o", "out.png", env=env)
         closed = self.dir / "closed"
         closed.mkdir(mode=0o555)
-        env = environment(XDG_CACHE_HOME=closed, MESA_SHADER_CACHE_DISABLE="true")
+        env = environment(XDG_CACHE_HOME=closed)
         self.refuse(5, ["closed", "XDG_CACHE_HOME"], "render", "scene.toml", "-o", "out.png", env=env,
                     prefix=sward_cli.without_root())
 

@@ -197,7 +197,7 @@ class Room(CliCase):
                 self.assertEqual(sward_cli.snapshot(self.dir), before)
 
     def test_little_memory(self):
-        env = environment(MESA_SHADER_CACHE_DISABLE="true")
+        env = self.own_shaders()
         for most in (400_000, 600_000):
             with self.subTest(kib=most):
                 self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 10, most << 10)), env=env)

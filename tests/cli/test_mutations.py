@@ -170,7 +170,7 @@ class Mutations(CliCase):
         for number in range(EACH):  # what is whole after all takes seconds to import: most of these are cut
             (self.dir / "v.vdb").write_bytes(mutate(whole[:rng.randrange(64, len(whole))], rng))
             with self.subTest(number=number):
-                self.held("v.vdb", "texgen", "import", "v.vdb", "-o", "new", "--size", "32", "--no-preview", "-q", output="new")
+                self.held("v.vdb", "texgen", "import", "v.vdb", "-o", "new", "--size", "32", "--far-rays", "256", "--no-preview", "-q", output="new")
 
     def test_stacks(self):
         (self.dir / "stack").mkdir()

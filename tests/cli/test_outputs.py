@@ -83,7 +83,7 @@ class Outputs(CliCase):
 
         (self.dir / "out.png").write_bytes(b"old")
         (self.dir / "out.exr").write_bytes(b"old")
-        env = sward_cli.environment(MESA_SHADER_CACHE_DISABLE="true")
+        env = self.own_shaders()
         for name in ("out.png", "out.exr"):
             before = sward_cli.snapshot(self.dir)
             result = self.render("-o", name, limits=small, env=env)
@@ -97,7 +97,8 @@ class Outputs(CliCase):
         def small():
             resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
 
-        env = sward_cli.environment(MESA_SHADER_CACHE_DISABLE="true")
+        self.assert_done(self.render("--size", "2x2", "--samples", "1"))
+        env = self.own_shaders()
         self.assert_done(self.render("--size", "2x2", "--samples", "1", limits=small, env=env))
         (self.dir / "out.png").unlink()
         before = sward_cli.snapshot(self.dir)

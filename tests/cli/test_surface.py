@@ -56,7 +56,7 @@ class Surface(CliCase):
         glb(self.dir / "box.glb", *BOX)
         self.cache = self.dir / "cache"
         # The driver's own cache is shared: compiling shaders anew costs more than all else here.
-        self.env = environment(XDG_CACHE_HOME=self.cache, MESA_SHADER_CACHE_DIR=sward_cli.WORK / "cache")
+        self.env = environment(XDG_CACHE_HOME=self.cache)
 
     def scene(self, text=SCENE, name="scene.toml"):
         (self.dir / name).write_text(text)

@@ -210,6 +210,8 @@ class Textures(ExportCase):
 
     def test_formats(self):
         """Albedo is flagged sRGB and tangents are not; arrays have all mips, atlases are single textures."""
+        for found, wanted in zip((self.stack["floor"]["cover"], *self.stack["floor"]["moss"]), (0.7, 0.05, 0.078, 0.02), strict=True):
+            self.assertAlmostEqual(found, wanted, delta=1e-6)
         for name, images in (("layers", 2 * 4), ("slices", 2 * 2 * 4)):
             for kind, fmt, transfer in (("albedo", SRGB, 2), ("tangent", UNORM, 1)):
                 found, layers, mips, flag = ktx2(self.files[f"{kind}_{name}.ktx2"])
@@ -369,7 +371,7 @@ class Tool(ExportCase):
         self.refuse_export(3, ["volume.vdb", "SHA-256"], "set", "-o", "out", "--for", "blender", "-q")
 
     def test_far_only(self):
-        self.assert_done(self.texgen("import", "set/volume.vdb", "-o", "far", "--size", "32", "--layers", "2", "--slices", "2", "--levels", "1", *FAST,
+        self.assert_done(self.texgen("import", "set/volume.vdb", "-o", "far", "--size", "32", "--layers", "2", "--slices", "2", "--levels", "1", "--far-rays", "1024", *FAST,
                                     timeout=600))
         self.refuse_export(3, ["far", "blades", "none"], "far", "-o", "out", "--for", "gltf")
         self.refuse_export(3, ["far", "blades", "none"], "far", "-o", "out", "--for", "blender")

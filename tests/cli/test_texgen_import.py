@@ -13,6 +13,7 @@ import sward_cli
 from sward_cli import CliCase
 
 FAST = ("--no-preview", "-q")
+FEW = ("--far-rays", "1024")  # where the far field's noise is not the question
 
 
 def text(words):
@@ -105,7 +106,7 @@ class ImportCase(CliCase):
         return self.dir / "own/volume.vdb"
 
     def import_set(self, file, name, *arguments):
-        result = self.texgen("import", file, "-o", name, "--period", "0.32", *FAST, *arguments)
+        result = self.texgen("import", file, "-o", name, "--period", "0.32", *FAST, *FEW, *arguments)
         self.assert_done(result)
         self.assert_done(self.texgen("verify", name, "-q"))
         return result
@@ -121,7 +122,7 @@ class Import(ImportCase):
             sets.append(self.content(f"set{threads}"))
         self.own_volume()
         for threads in (0, 1, 5):
-            self.assert_done(self.texgen("import", "own/volume.vdb", "-o", f"again{threads}", *FAST, "--threads", threads))
+            self.assert_done(self.texgen("import", "own/volume.vdb", "-o", f"again{threads}", *FAST, *FEW, "--threads", threads))
         for one, other in [*((sets[0], s) for s in sets[1:]), *((self.content("again0"), self.content(f"again{n}")) for n in (1, 5))]:
             self.assertEqual(sorted(one), sorted(other))
             for name, bytes_ in one.items():
@@ -129,7 +130,7 @@ class Import(ImportCase):
 
     def test_preview_and_report(self):
         write_vdb(self.dir / "posts.vdb", Grid("density", posts()))
-        result = self.texgen("import", "posts.vdb", "-o", "deep/down/set", "--period", "0.32", "--json")
+        result = self.texgen("import", "posts.vdb", "-o", "deep/down/set", "--period", "0.32", "--json", *FEW)
         self.assert_done(result)
         report = json.loads(result.out)
         self.assertEqual((report["voxels"], round(report["side_m"], 3)), (len(posts()), 0.32))
@@ -168,13 +169,13 @@ class Import(ImportCase):
         self.assertLess(numpy.abs(light[1] / light[0] - 1).max(), 0.02, light)
         look = json.loads((self.dir / "back/set.json").read_text())["species"][0]["look"]
         self.assertGreater(light[1][0][0], light[1][0][1], "red blades are seen")
-        self.assertLess(look["root"][0], 0.3, "though the species' one colour is another")
+        self.assertLess(look["root"][0], 0.3, "though most blades are of another colour")
 
     def test_rounding_is_told_once(self):
         values = posts()
         values[(0, 0, 0)], values[(1, 0, 0)], values[(2, 0, 0)] = (-1e-4,), (1e-40,), (-1e-30,)
         write_vdb(self.dir / "n.vdb", Grid("density", values))
-        for arguments in (("inspect", "n.vdb"), ("import", "n.vdb", "-o", "set", "--period", "0.32", "--no-preview")):
+        for arguments in (("inspect", "n.vdb"), ("import", "n.vdb", "-o", "set", "--period", "0.32", "--no-preview", *FEW)):
             result = self.texgen(*arguments)
             self.assert_done(result)
             warnings = [line for line in result.err.splitlines() if line.startswith("warning")]
@@ -204,7 +205,7 @@ class Stack(ImportCase):
     def test_exported_pictures_come_back(self):
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
         self.assert_done(self.texgen("tiny.toml", "-o", "own", "--export", "png", "--no-volume", *FAST))
-        self.assert_done(self.texgen("import", "own-png", "-o", "back", *FAST))
+        self.assert_done(self.texgen("import", "own-png", "-o", "back", *FAST, *FEW))
         self.assert_done(self.texgen("verify", "back", "-q"))
         made, back = (json.loads(self.texgen("inspect", name, "--json").out) for name in ("own", "back"))
         self.assertAlmostEqual(made["side_m"], back["side_m"], delta=1e-6)
@@ -217,13 +218,13 @@ class Stack(ImportCase):
         stack = json.loads((self.dir / "seamless/stack.json").read_text())
         self.assertAlmostEqual(stack["side_m"], 56 / 64)
         self.assertEqual(len(stack["images"]), 4)
-        self.assert_done(self.texgen("import", "seamless", "-o", "set", *FAST))
+        self.assert_done(self.texgen("import", "seamless", "-o", "set", *FAST, *FEW))
         for image in stack["images"]:
             del image["height_m"]
         del stack["side_m"]
         (self.dir / "seamless/stack.json").write_text(json.dumps(stack))
         self.refuse_texgen(3, ["stack.json", "side_m", "--side"], "import", "seamless", "-o", "new")
-        self.assert_done(self.texgen("import", "seamless", "-o", "even", "--side", "0.875", *FAST))
+        self.assert_done(self.texgen("import", "seamless", "-o", "even", "--side", "0.875", *FAST, *FEW))
         self.refuse_texgen(2, ["--up"], "import", "seamless", "-o", "new", "--up", "z")
 
     def test_descriptions(self):

@@ -14,6 +14,7 @@ REFERENCE = ("--tiers", "reference", "--reference-distance", "25", "--reference-
 FAR_VIEWS = {"nadir": (89, 8.0, 14), "at60": (60, 8.0, 14), "at30": (30, 5.0, 14), "at10": (10, 2.0, 6)}
 # The hand-over's band is in the middle (at10 has it at its foot).
 BAND_VIEWS = {"nadir_band": (89, 4.3, 14), "at60_band": (60, 3.7, 14), "at30_band": (30, 2.1, 14)}
+LEVEL_VIEWS = ("nadir", "at30")
 VIEWS = FAR_VIEWS | BAND_VIEWS
 BUILDS = {"reference": REFERENCE, "hybrid": (), "shells": ("--tiers", "shells"), "half": ("--density", "0.5"), "no_slices": ("--far", "planes")}
 BUILDS |= {f"level{k}": ("--far", "planes", "--tiers", "shells", "--force-tier", str(k)) for k in range(4)}
@@ -99,10 +100,11 @@ class Truth(ImageCase):
                 self.assertGreaterEqual(difference, 1)
 
     def test_levels(self):
-        """Figures alone: how far each level of the planes is from the truth, at a distance that is not its own."""
-        for view in FAR_VIEWS:
+        """How far each level of the planes is from the truth, at a distance that is not its own."""
+        for view in LEVEL_VIEWS:
             for level in range(4):
-                self.errors(view, f"level{level}")
+                with self.subTest(view=view, level=level):
+                    self.assertFalse(self.fails(view, f"level{level}"))
                 self.assertEqual(self.measure(view, f"level{level}")["tiers"][1:3].sum(), 0)
 
     def test_catches_shells_alone(self):

@@ -13,7 +13,7 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets", "drive"},
+    "app": {"render", "assets", "feed", "input", "drive"},
     "drive": {"scene"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
@@ -25,6 +25,8 @@ ARROWS = {
     "grass": {"base"},
     "scene": {"base"},
     "gl": {"base"},
+    "feed": {"scene"},
+    "input": {"scene"},
     "assets": {"scene"},
     "texgen": {"grass", "assets"},
     "base": set(),

@@ -73,16 +73,19 @@ TEST_F(Kinds, ValidityIsTheMaskInsideTheFile) {
 }
 
 TEST_F(Kinds, VoidsThatNothingDeclares) {
-    for (const double code : {-32768.0, -32767.0, -32000.0}) {
+    for (const double code : {-32768.0, -32767.0, -32000.0, -9999.0}) {
         Tiff whole = raster<std::int16_t>(6, 5, [&](double i, double j) { return i == 2 && j == 2 ? code : 40 + i; });
         EXPECT_NEAR(load(whole.bytes(), sized(5, 4)).metres[14], 42, 1) << code;
         Tiff real = raster<float>(6, 5, [&](double i, double j) { return i == 2 && j == 2 ? code : 40 + i; });
         EXPECT_NEAR(load(real.bytes(), sized(5, 4)).metres[14], 42, 1) << code;
     }
-    for (const float code : {NAN, -3.4028235e38f, 3.4028235e38f}) {
+    for (const float code : {NAN, -3.4028235e38f, 3.4028235e38f, -99999.0f, -2147483648.0f}) {
         Tiff real = raster<float>(6, 5, [&](double i, double j) { return i == 2 && j == 2 ? code : 40 + i; });
         EXPECT_NEAR(load(real.bytes(), sized(5, 4)).metres[14], 42, 1) << code;
     }
+    Tiff trench = raster<float>(6, 5, [&](double i, double j) { return i == 2 && j == 2 ? -9999 : 40 + i; });
+    trench.nodata = "-1";
+    EXPECT_EQ(load(trench.bytes(), sized(5, 4)).metres[14], -9999) << "another number stands for voids";
     expect_holds(error(raster<float>(2, 2, [](double, double) { return NAN; }).bytes(), sized(5, 4)), "no elevation: found voids only");
 }
 
@@ -106,6 +109,9 @@ TEST_F(Kinds, ClassesComeInAnyWholeType) {
     const auto read = [&](const std::string& bytes) { return mask(bytes, {{30, 1.0}, {100, 0.25}}); };
     const std::vector<float> expected = {1, 0, 0.25f};
     EXPECT_EQ(classes_of<std::uint8_t>(*this, read), expected);
+    EXPECT_EQ(classes_of<std::int8_t>(*this, read), expected);
+    EXPECT_EQ(classes_of<std::int64_t>(*this, read), expected);
+    EXPECT_EQ(classes_of<std::uint64_t>(*this, read), expected);
     EXPECT_EQ(classes_of<std::int16_t>(*this, read), expected);
     EXPECT_EQ(classes_of<std::uint16_t>(*this, read), expected);
     EXPECT_EQ(classes_of<std::int32_t>(*this, read), expected);
@@ -118,6 +124,85 @@ TEST_F(Kinds, ClassesComeInAnyWholeType) {
     EXPECT_EQ(read(signed_void.bytes()).density, (std::vector<float>{1, 0}));
     expect_holds(error_of([&] { (void)mask(raster<std::int16_t>(2, 1, [](double, double) { return 1; }).bytes()); }),
                  "type of the pixels: found Int16");
+}
+
+/// What a file of a type makes of its value for "none", beside a class 7 and a void that nothing declares.
+template<class T> void expect_nodata(const std::function<scene::DensityMask(const std::string&, const std::map<int, double>&)>& read,
+                                     double value, const std::string& nodata) {
+    SCOPED_TRACE(nodata);
+    Tiff tiff = raster<T>(2, 1, [&](double i, double) { return i > 0 ? value : 7; });
+    tiff.nodata = nodata;
+    const scene::DensityMask mask = read(tiff.bytes(), {{7, 0.5}});
+    EXPECT_EQ(mask.density, (std::vector<float>{0.5f, 0}));
+    EXPECT_EQ(mask.class_shares, (std::map<int, double>{{-1, 0.5}, {7, 0.5}}));
+}
+
+TEST_F(Kinds, EveryTypeHasItsNumberForNone) {
+    const auto read = [&](const std::string& bytes, const std::map<int, double>& classes) { return mask(bytes, classes); };
+    expect_nodata<std::int8_t>(read, -128, "-128");
+    expect_nodata<std::int8_t>(read, -1, "-1");
+    expect_nodata<std::uint8_t>(read, 255, "255");
+    expect_nodata<std::int16_t>(read, -32768, "-32768");
+    expect_nodata<std::uint16_t>(read, 65535, "65535");
+    expect_nodata<std::int32_t>(read, -2147483648.0, "-2147483648");
+    expect_nodata<std::uint32_t>(read, 4294967295.0, "4294967295");
+    expect_nodata<std::int64_t>(read, -9223372036854775808.0, "-9223372036854775808");
+    expect_nodata<float>(read, -3.4028234663852886e38, "-3.40282e+38");
+    expect_nodata<float>(read, NAN, "nan");
+    expect_nodata<double>(read, -1.7976931348623157e308, "-1.7976931348623157e+308");
+}
+
+TEST_F(Kinds, BytesMayBeSigned) {
+    const auto values = [](double i, double) { return i == 0 ? -10 : 7; };
+    const std::string bytes = raster<std::int8_t>(2, 2, values).bytes();
+    expect_holds(error_of([&] { (void)mask(bytes, {{246, 1.0}}); }), "column 0, row 0: found -10, expected a landcover class");
+    expect_holds(error_of([&] { (void)mask(bytes); }), "type of the pixels: found Int8");
+    EXPECT_EQ(load(bytes, sized(1, 1)).metres, (std::vector<float>{-10, 7, -10, 7}));
+    TerrainSpec scaled = sized(1, 1);
+    scaled.height_m = glm::dvec2(0, 100);
+    expect_holds(error(bytes, scaled), "terrain.height_m: found the key, expected none");
+}
+
+TEST_F(Kinds, ColoursThatAreTransparentAreNoValue) {
+    const std::string bytes = [] {
+        std::string whole = png(3, 1, 8, 3, std::string("\0\0\1\2", 4), std::string("\xff\0\0\x80\0\0\x33\0\0", 9));
+        const std::string kind("tRNS"), alpha("\xff\0\0", 3); // two of them: no single number for "none"
+        const std::uint32_t sum = crc(kind + alpha);
+        const std::string chunk = std::string("\0\0\0\3", 4) + kind + alpha + std::string{char(sum >> 24), char(sum >> 16), char(sum >> 8), char(sum)};
+        return whole.insert(whole.find("IDAT") - 4, chunk);
+    }();
+    EXPECT_EQ(mask(bytes).density, (std::vector<float>{1, 0, 0}));
+    EXPECT_EQ(mask(bytes, {{0, 0.25}, {1, 1.0}, {2, 1.0}}).density, (std::vector<float>{0.25f, 0, 0}));
+}
+
+TEST_F(Kinds, ExrOfWholeNumbersAndWithAlpha) {
+    const auto exr = [&](const char* type, const std::vector<std::string>& names, const std::string& pixels) { // one row, unpacked
+        std::string header = std::string("\x76\x2f\x31\x01\2\0\0\0", 8), channels;
+        for (const std::string& name : names)
+            channels += name + '\0' + little(std::int32_t{std::string(type) == "uint" ? 0 : 2}) + std::string(4, '\0') + little(1) + little(1);
+        const auto columns = static_cast<std::int32_t>(pixels.size() / 4 / names.size());
+        const std::string window = little(0) + little(0) + little(columns - 1) + little(0);
+        const auto add = [&](const std::string& name, const std::string& kind, const std::string& value) {
+            header += name + '\0' + kind + '\0' + little(static_cast<std::int32_t>(value.size())) + value;
+        };
+        add("channels", "chlist", channels + '\0');
+        add("compression", "compression", std::string(1, '\0'));
+        add("dataWindow", "box2i", window);
+        add("displayWindow", "box2i", window);
+        add("lineOrder", "lineOrder", std::string(1, '\0'));
+        add("pixelAspectRatio", "float", little(1.0f));
+        add("screenWindowCenter", "v2f", little(0.0f) + little(0.0f));
+        add("screenWindowWidth", "float", little(1.0f));
+        header += '\0';
+        return header + little(static_cast<std::uint64_t>(header.size() + 8)) + little(0) + little(static_cast<std::int32_t>(pixels.size())) + pixels;
+    };
+    const std::string classes = exr("uint", {"Y"}, little(30u) + little(7u) + little(0u));
+    EXPECT_EQ(mask(classes, {{30, 1.0}, {7, 0.5}}).density, (std::vector<float>{1, 0.5f, 0}));
+    expect_holds(error_of([&] { (void)mask(classes); }), "column 0, row 0: found 30, expected a density from 0 to 1");
+    const std::string holes = exr("float", {"A", "Y"}, little(1.0f) + little(0.0f) + little(0.5f) + little(0.5f) + little(0.5f) + little(0.25f));
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(mask(holes).density, (std::vector<float>{0.5f, 0, 0.25f}));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "an alpha is no second mask";
 }
 
 TEST_F(Kinds, BandsAreChosen) {

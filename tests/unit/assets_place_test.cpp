@@ -147,6 +147,21 @@ TEST_F(Places, AMaskOnTheGridOfItsDemStaysOnIt) {
     EXPECT_LT(glm::length(middle_of(density, field, place, 200) - place), 6);
 }
 
+TEST_F(Places, MasksAboutAPole) {
+    // Meridians as a mask: pixels of every width down to none, and half of the terrain on either side of one.
+    const Heightfield field = elevation(flat(projected(3413), affine(1000, 0, -40000, 0, -1000, 31000)));
+    for (const double west : {-180.0, 0.0}) {
+        Tiff halves = raster<std::int16_t>(360, 200, [](double i, double) { return i < 180 ? 30 : 7; });
+        halves.geokeys = kWgs84;
+        halves.matrix = affine(1, 0, west, 0, -0.01, 90);
+        const scene::DensityMask density = mask(halves, field, {{30, 1.0}});
+        EXPECT_FALSE(density.bounded);
+        EXPECT_LT(density.density.size(), std::size_t{1} << 22) << "not as fine as its finest pixel";
+        EXPECT_NEAR(density.class_shares.at(30), 0.5, 0.03) << west;
+        EXPECT_NEAR(density.class_shares.at(7), 1 - density.class_shares.at(30), 1e-6) << west;
+    }
+}
+
 TEST_F(Places, ARoadKeepsItsShareOfAWiderTexel) {
     // 8 m of road in a mask of 1 m, on posts of 90 m.
     Tiff dem = raster<float>(41, 41, [](double, double) { return 50; });

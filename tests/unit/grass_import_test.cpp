@@ -26,8 +26,10 @@ namespace {
 namespace fs = std::filesystem;
 using base::ExitCode;
 
+constexpr int kRays = 16384; // 0.4 points
+
 ImportQuery small_query() {
-    return {.name = "imported", .layers = 8, .slices = 8, .levels = 3, .threads = 2};
+    return {.name = "imported", .layers = 8, .slices = 8, .levels = 3, .far_rays = kRays, .threads = 2};
 }
 
 /// volume.vdb of the small set, through the file and back.
@@ -53,7 +55,7 @@ grass::GrassSet first_variant(const grass::GrassSet& set) {
     for (const grass::Species& species : set.species)
         patch.looks.push_back(species.look);
     grass::GrassSet out;
-    out.far = far_table(blade_canopy(patch, set.canopy_m), kFarRays, 2).rows;
+    out.far = far_table(blade_canopy(patch, set.canopy_m), kRays, 2).rows;
     return out;
 }
 
@@ -67,7 +69,7 @@ TEST(Import, OwnVolumeCoversWhatItsBladesDo) {
         EXPECT_NEAR(row.height * set.canopy_m, blades[i].height * small_set().canopy_m, 0.015) << blades[i].elevation_deg << " degrees";
         if (row.elevation_deg < 5)
             continue;
-        const double flat = flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, 32768).coverage;
+        const double flat = flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, kRays).coverage;
         EXPECT_NEAR(flat, blades[i].coverage, 0.03) << blades[i].elevation_deg << " degrees, textures";
         std::printf("%5.1f: blades %.3f, voxels %.3f, textures %.3f\n", row.elevation_deg, blades[i].coverage, row.coverage, flat);
     }
@@ -84,7 +86,8 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
         for (int n = 0; n < 256; ++n) {
             const glm::vec2 id((static_cast<float>(n) + 0.5f) / 256, (static_cast<float>(n * 37 % 256) + 0.5f) / 256);
             mean += shared::blade_albedo(small_set().species[0].look, id, v, 0) / 256.0f;
-            found += shared::blade_albedo(set.species[0].look, id, v, 0) / 256.0f;
+            for (const grass::Species& species : set.species) // dry blades are one of their own
+                found += species.share * shared::blade_albedo(species.look, id, v, 0) / 256.0f;
         }
         for (int c = 0; c < 3; ++c)
             EXPECT_NEAR(found[c], mean[c], 0.15f * mean[c]) << v;
@@ -162,6 +165,51 @@ TEST(Import, ACloudsDensityIsItsOpacity) {
     Volume thin = post_cloud(64, 1);
     const grass::GrassSet faint = import_volume(thin, query, "posts.vdb");
     EXPECT_NEAR(faint.far[0].coverage, 0.01 * 4.0 / 256, 1e-4);
+}
+
+/// Share of what covers an image that texels of a species cover.
+double share_of(const grass::FarLevel& level, std::size_t mip, int species) {
+    const std::size_t texels = std::max<std::size_t>(1, static_cast<std::size_t>(level.layers.width) >> mip);
+    const std::uint8_t* id = level.layers.mips[mip].data() +
+                             4 * texels * texels * static_cast<std::size_t>(shared::layer_index(0, 0, level.layer_count, shared::kPlaneId));
+    double own = 0, all = 0;
+    for (std::size_t t = 0; t < texels * texels; ++t) {
+        all += id[4 * t];
+        own += id[4 * t] > 0 && shared::decode_species(id[4 * t + 3]) == species ? id[4 * t] : 0;
+    }
+    return own / all;
+}
+
+TEST(Import, ThinStrandsKeepTheirColour) {
+    // Green posts of four cells and red ones of one, in texels as wide as two.
+    Volume volume;
+    volume.voxel_m = 0.01;
+    volume.cells = {64, 12, 64};
+    for (int y = 0; y < 12; ++y)
+        for (int z = 0; z < 64; ++z)
+            for (int x = 0; x < 64; ++x) {
+                const bool thin = x % 8 == 6 && z % 8 == 5;
+                if (!thin && (x % 8 > 1 || z % 8 > 1))
+                    continue;
+                volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z)});
+                volume.density.push_back(1);
+                const float value = 0.9f + 0.2f * static_cast<float>((x * 7 + z * 3) % 5) / 4.0f;
+                volume.colour.push_back((thin ? glm::vec3(0.6f, 0.05f, 0.04f) : glm::vec3(0.08f, 0.2f, 0.03f)) * value);
+            }
+    ImportQuery query = small_query();
+    query.size = 32;
+    query.far_rays = 1024;
+    const grass::GrassSet set = import_volume(volume, query, "posts.vdb");
+    ASSERT_EQ(set.species.size(), 2u) << "one colour's variation is no species";
+    EXPECT_NEAR(set.species[0].look.root.y, 0.2f, 0.02f);
+    EXPECT_NEAR(set.species[0].look.tip.y, 0.2f, 0.02f);
+    EXPECT_NEAR(set.species[1].look.root.x, 0.6f, 0.06f);
+    EXPECT_NEAR(set.species[1].share, 0.2, 1e-3);
+    EXPECT_NEAR(share_of(set.levels[0], 0, 1), 0.2, 0.02);
+    EXPECT_NEAR(share_of(set.levels[0], 2, 1), 0.2, 0.1) << "8 texels a side";
+    EXPECT_NEAR(share_of(set.levels[1], 0, 1), 0.2, 0.1) << "texels as wide as four voxels: by lot";
+    volume.colour.clear();
+    EXPECT_EQ(import_volume(volume, query, "posts.vdb").species.size(), 1u);
 }
 
 TEST(Import, DirectionsAreEstimatedWhereTheVolumeHasNone) {

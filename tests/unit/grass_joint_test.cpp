@@ -99,13 +99,15 @@ Verdict judge(const grass::GrassSet& set) {
     return verdict;
 }
 
+const BakeOptions kTexturesAlone{.threads = 2, .volume = false, .preview = false};
+
 TEST(Joints, OfAnyVariantsAreNoRougherThanTheInterior) {
     base::set_verbosity(base::Verbosity::kQuiet);
-    const Verdict good = judge(bake_set(dense_meadow(true), {.threads = 2}));
+    const Verdict good = judge(bake_set(dense_meadow(true), kTexturesAlone));
     EXPECT_LT(good.roughest, 1.2);
     EXPECT_LT(good.rough_images, 0.04 * good.images); // by chance: a hundredth of the columns, and those of sparse images
 
-    const Verdict cut = judge(bake_set(dense_meadow(false), {.threads = 2}));
+    const Verdict cut = judge(bake_set(dense_meadow(false), kTexturesAlone));
     EXPECT_GT(cut.roughest, 1.2); // a set with the wrap switched off fails
     RecordProperty("roughest", std::to_string(good.roughest));
     RecordProperty("cut", std::to_string(cut.roughest));

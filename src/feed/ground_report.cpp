@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "feed/ground_report.h"
+
+#include <span>
+
+#include "feed/network_order.h"
+
+namespace sward::feed {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr double kBareShare = 0.05, kSparseShare = 0.5;
+constexpr std::uint32_t kMagic = 0x53574744; // "SWGD"
+constexpr std::uint32_t kFed = 1, kStands = 2;
+
+void write_floats(std::span<std::byte> packet, std::size_t offset, glm::dvec3 value) {
+    write_big_endian(packet, offset, static_cast<float>(value.x));
+    write_big_endian(packet, offset + 4, static_cast<float>(value.y));
+    write_big_endian(packet, offset + 8, static_cast<float>(value.z));
+}
+
+} // namespace
+
+SurfaceClass class_of(double share) {
+    if (!(share >= 0)) // NaN too
+        return SurfaceClass::kUnknown;
+    return share < kBareShare ? SurfaceClass::kBare : share < kSparseShare ? SurfaceClass::kSparse : SurfaceClass::kGrass;
+}
+
+std::array<std::byte, kReportBytes> encode_report(const GroundReport& report) {
+    std::array<std::byte, kReportBytes> packet{};
+    const std::span<std::byte> out(packet);
+    write_big_endian(out, 0, kMagic);
+    write_big_endian(out, 4, kReportVersion);
+    write_big_endian(out, 8, report.count);
+    write_big_endian(out, 12, (report.fed ? kFed : 0) | (report.stands ? kStands : 0));
+    write_big_endian(out, 16, report.time_s);
+    write_big_endian(out, 24, report.fed ? report.longitude_deg * kDegree : 0.0);
+    write_big_endian(out, 32, report.fed ? report.latitude_deg * kDegree : 0.0);
+    write_big_endian(out, 40, report.place.x);
+    write_big_endian(out, 48, report.place.y);
+    write_big_endian(out, 56, report.ground_m);
+    // As flight models have it: north, east, down.
+    write_floats(out, 64, {-report.normal.z, report.normal.x, -report.normal.y});
+    write_floats(out, 76, {-report.wind_mps.z, report.wind_mps.x, -report.wind_mps.y});
+    write_big_endian(out, 88, static_cast<std::uint32_t>(report.surface));
+    write_big_endian(out, 92, report.fed ? report.fdm_time : 0u);
+    return packet;
+}
+
+} // namespace sward::feed
