@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/drive_source.h"
 #include "app/flight.h"
 #include "app/io.h"
 #include "app/load_screen.h"
@@ -142,6 +143,8 @@ private:
 void run_view(const Options& options) {
     scene::Scene scene = first_scene(options);
     static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
+    if (!options.drive.empty())
+        static_cast<void>(find_vehicle(options.drive)); // likewise
     gl::DebugMessages messages;
     Viewer viewer(options);
     if (options.debug_gl)

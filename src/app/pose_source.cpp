@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/controls.h"
+#include "app/drive_source.h"
 
 namespace sward::app {
 namespace {
@@ -25,7 +26,9 @@ private:
 
 } // namespace
 
-std::unique_ptr<PoseSource> make_pose_source(const Options&, const scene::PlaceOnEarth&) {
+std::unique_ptr<PoseSource> make_pose_source(const Options& options, const scene::PlaceOnEarth&) {
+    if (!options.drive.empty())
+        return make_drive_source(find_vehicle(options.drive), options.tyres);
     return std::make_unique<FreeFlight>();
 }
 
