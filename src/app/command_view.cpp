@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/devices.h"
+#include "app/drive_source.h"
 #include "app/flight.h"
 #include "app/io.h"
 #include "app/joystick_list.h"
@@ -62,8 +64,10 @@ private:
 class Viewer {
 public:
     explicit Viewer(const Options& options)
-        : options_(options), record_(record_of(options)), links_(open_feed(options)), window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
+        : options_(options), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
+          window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
         gl::require_gl45();
+        window_.use_devices(std::move(devices_));
     }
 
     /// Shows a scene, from its camera `camera`, and what is asked for next. A scene that was asked for within the window and fails is told of, and
@@ -134,7 +138,9 @@ private:
 
     const Options& options_;
     std::optional<FlightRecord> record_; ///< --replay
-    FeedLinks links_; ///< opened before the window: a port in use is told of first
+    // Before the window: a port in use or a wrong file is told of first.
+    FeedLinks links_;
+    input::ControlMap devices_;
     Window window_;
     Panel panel_;
 };
@@ -146,6 +152,8 @@ void run_view(const Options& options) {
         return list_joysticks();
     scene::Scene scene = first_scene(options);
     static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
+    if (!options.drive.empty())
+        static_cast<void>(find_vehicle(options.drive)); // likewise
     gl::DebugMessages messages;
     Viewer viewer(options);
     if (options.debug_gl)

@@ -118,6 +118,7 @@ public:
         out_->send(feed::encode_report(report)); // a lost one is followed by the next
     }
     [[nodiscard]] bool in_real_time() const override { return source_->in_real_time(); }
+    [[nodiscard]] std::vector<Ball> bodies() const override { return source_->bodies(); }
     [[nodiscard]] std::string note() const override { return source_->note(); }
 
 private:

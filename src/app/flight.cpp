@@ -127,6 +127,8 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
 /// A flight that is kept, or shown again, is simulated by its steps, however many fall into a picture: its pictures are then the same whatever their
 /// rate. Any other one is simulated once a picture, and no more than a slow machine can.
 void Flight::simulate(const glm::dvec3& eye, const Input& input) {
+    if (const std::vector<Ball> bodies = source_.bodies(); !bodies.empty())
+        field_.set_colliders(bodies, clock_.time_s());
     const SimulationLimits limits = render::limits_of(settings_);
     if (parts_.record == nullptr && parts_.replay == nullptr) {
         field_.simulate(clock_.time_s(), {&eye, 1}, limits);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.h"
+#include "app/devices.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "input/controls_file.h"
@@ -30,7 +31,7 @@ std::string beginning_for(const input::Joystick& joystick) {
 
 void list_joysticks() {
     const std::filesystem::path file = input::controls_file();
-    const input::ControlMap map = input::load_controls(file);
+    const input::ControlMap map = load_device_controls();
     const std::string where = file.empty() ? "controls.toml" : base::printable(file.native(), 1024);
     int unreadable = 0;
     const std::vector<input::Joystick> joysticks = input::list_joysticks(unreadable);

@@ -24,6 +24,7 @@ constexpr std::array kBindings = {
     KeyBinding{Action::kWindLeft, key::kHome, "Home", "wind from 10 degrees further left", 0, 1, true},
     KeyBinding{Action::kWindRight, key::kEnd, "End", "wind from 10 degrees further right", 0, 1, true},
     KeyBinding{Action::kCamera, '1', "1-9", "the scene's cameras, in the order of their names", 0, 9},
+    KeyBinding{Action::kDriveCamera, 'C', "C", "driving: the next camera of driver, chase, wheel"},
     KeyBinding{Action::kRecent, 'O', "O", "recent scenes"},
     KeyBinding{Action::kFullScreen, key::kF11, "F11", "full screen, or the window again"},
     KeyBinding{Action::kScreenshot, key::kF12, "F12", "screenshot: sward-NNNN in the working directory"},
@@ -39,8 +40,9 @@ constexpr std::array kBindings = {
     KeyBinding{Action::kUndo, 'Z', "Ctrl+Z", "editor: undo", 0, 1, true, true},
 };
 
-constexpr std::array<std::string_view, 5> kMotion = {
+constexpr std::array<std::string_view, 6> kMotion = {
     "W A S D    fly, sideways       Q E    down, up",
+    "driving    W S drive, brake and back, A D steer, E hand brake",
     "right mouse button    look",
     "wheel    speed       shift    eight times as fast",
     "gamepad    left stick fly, right stick look, triggers down and up,",

@@ -40,6 +40,9 @@ constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
 
 constexpr std::array<std::pair<std::string_view, const char*>, 5> kSuites = {{{"all", "all"}, {"far", "far"}, {"near", "near"}, {"tracks", "tracks"}, {"wind", "wind"}}};
 
+constexpr std::array<std::pair<std::string_view, drive::Surface>, drive::kSurfaces> kSurfaces = {
+    {{"grass", drive::Surface::kGrass}, {"wet", drive::Surface::kWetGrass}, {"road", drive::Surface::kRoad}}};
+
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
 constexpr NumberRange kExposure{1e-6, 1e6, ""};
@@ -237,6 +240,14 @@ void declare_view(CLI::App& app, Options* o) {
     declare_path(app, "--record", "FILE", "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
     declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
     app.get_option("--replay")->excludes("--record")->excludes("--camera")->excludes("--native-fdm");
+    declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it", [=](const std::string& text) {
+        if (text.empty() || text.find('\0') != std::string::npos)
+            throw option_error("--drive", text, "car, tractor or a vehicle's file");
+        o->drive = text;
+    })->excludes("--replay")->excludes("--native-fdm");
+    declare(app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
+            [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
+        ->needs("--drive");
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
         o->exit_after = static_cast<int>(parse_integer("--frames", text, kExitAfter));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "drive/vehicle_spec.h"
 #include "feed/udp_socket.h"
 #include "render/settings.h"
 #include "scene/scene.h"
@@ -74,6 +75,8 @@ struct Options {
     std::optional<feed::Endpoint> udp_out;    ///< whom to tell what lies under it
     bool list_joysticks = false;              ///< in the place of a window
     std::filesystem::path record; ///< written as the flight goes on; empty: none
+    std::string drive;            ///< a vehicle that ships, or its file; empty: the free camera
+    drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
     std::optional<WindowPlace> window; ///< none: of `frame`'s size
     int exit_after = 0; ///< frames; 0: until it is closed
 };

@@ -42,6 +42,10 @@ fs::path presets_directory() {
                           : fs::path(SWARD_SOURCE_DIR) / "texgen" / "presets";
 }
 
+fs::path vehicles_directory() {
+    return data_directory() / "vehicles";
+}
+
 fs::path texgen_program() {
     return base::executable_directory() / "texgen";
 }

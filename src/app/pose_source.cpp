@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/controls.h"
+#include "app/drive_source.h"
 #include "app/feed_source.h"
 
 namespace sward::app {
@@ -26,10 +27,12 @@ private:
 
 } // namespace
 
-std::unique_ptr<PoseSource> make_pose_source(const Options&, const SourceParts& parts) {
+std::unique_ptr<PoseSource> make_pose_source(const Options& options, const SourceParts& parts) {
     std::unique_ptr<PoseSource> source;
     if (parts.links.in)
         source = make_feed_source(parts.links.in, parts.on_earth);
+    else if (!options.drive.empty())
+        source = make_drive_source(find_vehicle(options.drive), options.tyres);
     else
         source = std::make_unique<FreeFlight>();
     if (parts.links.out)

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "app/feed_links.h"
 #include "app/flow_overlay.h"
@@ -10,6 +11,7 @@
 #include "app/view_pose.h"
 #include "app/window.h"
 #include "scene/scene.h"
+#include "sward/field.h"
 
 namespace sward::app {
 
@@ -30,6 +32,8 @@ public:
     virtual void advance(ViewPose& pose, const PoseMoment& moment) = 0;
     /// Whether it moves by the clock, even while time stands: its speed is then by the clock too.
     [[nodiscard]] virtual bool in_real_time() const { return false; }
+    /// What pushes the grass aside as it moves, where it stands now; of the same number from picture to picture. None: nothing.
+    [[nodiscard]] virtual std::vector<Ball> bodies() const { return {}; }
     /// A few words for the line on the picture ("set 5 m/s", "stream stands since 3 s"); empty: none.
     [[nodiscard]] virtual std::string note() const { return {}; }
 };

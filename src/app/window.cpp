@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <utility>
+#include <vector>
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <fmt/format.h>
 
+#include "app/devices.h"
 #include "base/error.h"
 
 namespace sward::app {
@@ -196,6 +198,7 @@ Input Window::poll(bool panel_has_mouse, bool panel_has_keyboard) {
     g_keys.clear(now);
     read_mouse(input, panel_has_mouse);
     read_gamepad(input);
+    read_devices(input);
     input.move = glm::clamp(input.move, -1.0, 1.0);
     return input;
 }
@@ -218,10 +221,31 @@ void Window::read_mouse(Input& input, bool panel_has_mouse) {
     cursor_ = cursor;
 }
 
-void Window::read_gamepad(Input& input) {
+void Window::use_devices(input::ControlMap map) {
+    devices_ = input::ControlReader(std::move(map));
+}
+
+void Window::read_devices(Input& input) {
+    std::vector<input::DeviceReading> readings;
+    for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+        const char* const guid = glfwGetJoystickGUID(id);
+        if (guid == nullptr)
+            continue;
+        int axes = 0, buttons = 0;
+        const float* const axis = glfwGetJoystickAxes(id, &axes);
+        const unsigned char* const button = glfwGetJoystickButtons(id, &buttons);
+        readings.push_back({guid, {axis, static_cast<std::size_t>(axes)}, {button, static_cast<std::size_t>(buttons)}});
+    }
+    devices_.read(readings);
+    add_devices(devices_, input);
+}
+
+/// The first gamepad flies by its standard layout, unless controls.toml says what it does.
+void Window::read_gamepad(Input& input) const {
     GLFWgamepadstate pad{};
     for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
-        if (glfwJoystickIsGamepad(id) == GLFW_FALSE || glfwGetGamepadState(id, &pad) == GLFW_FALSE)
+        const char* const guid = glfwGetJoystickGUID(id);
+        if (glfwJoystickIsGamepad(id) == GLFW_FALSE || glfwGetGamepadState(id, &pad) == GLFW_FALSE || (guid != nullptr && devices_.map().find(guid) != nullptr))
             continue;
         const auto trigger = [&](int index) {
             return 0.5 * (static_cast<double>(pad.axes[index]) + 1);
@@ -233,7 +257,7 @@ void Window::read_gamepad(Input& input) {
         input.look_rate += glm::dvec2(axis(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_X]),
                                       -axis(pad.axes[GLFW_GAMEPAD_AXIS_RIGHT_Y]));
         input.fast = input.fast || pad.buttons[GLFW_GAMEPAD_BUTTON_RIGHT_BUMPER] == GLFW_PRESS;
-        return; // the first gamepad flies
+        return;
     }
 }
 

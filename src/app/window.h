@@ -1,34 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <glm/glm.hpp>
 
-#include "app/keys.h"
+#include "app/input.h"
 #include "app/options.h"
 
 struct GLFWwindow;
 
 namespace sward::app {
-
-/// What keyboard, mouse and gamepad ask for in one frame.
-struct Input {
-    glm::dvec3 move{0, 0, 0};   ///< right, up, forward: -1..1 each
-    glm::dvec2 look_px{0, 0};   ///< mouse, right and down, while its right button is held
-    glm::dvec2 look_rate{0, 0}; ///< gamepad: yaw and pitch, -1..1
-    double wheel = 0;           ///< notches, up positive
-    bool fast = false;
-    std::vector<Press> presses; ///< in their order
-
-    [[nodiscard]] bool has(Action action) const {
-        return std::any_of(presses.begin(), presses.end(), [&](const Press& press) { return press.action == action; });
-    }
-};
 
 /// A window with an OpenGL 4.5 core context, current on this thread while it lives. One at a time. Throws Error(kNoGpu) without a
 /// display or without OpenGL 4.5, with a hint to `render`.
@@ -45,6 +29,8 @@ public:
     /// Takes the events since the last call. A panel that has the mouse or the keyboard keeps their
     /// input.
     [[nodiscard]] Input poll(bool panel_has_mouse, bool panel_has_keyboard);
+    /// Joysticks, wheels and pedals, bound by their GUIDs; they come and go as they are plugged in.
+    void use_devices(input::ControlMap map);
     /// Notes events and leaves them for poll(): often, while something takes long. Touches no GL state.
     void listen() const;
     /// Whether Esc was pressed, or the window closed, and poll() has not told yet.
@@ -63,13 +49,15 @@ public:
 
 private:
     void read_mouse(Input& input, bool panel_has_mouse);
-    static void read_gamepad(Input& input);
+    void read_devices(Input& input);
+    void read_gamepad(Input& input) const;
 
     GLFWwindow* window_ = nullptr;
     bool looking_ = false;       ///< the right button holds the mouse
     glm::dvec2 cursor_{0, 0};    ///< where it was, pixels
     glm::ivec4 in_window_{0};    ///< x, y, width, height before full screen
     std::string title_;
+    input::ControlReader devices_{{}};
 };
 
 } // namespace sward::app

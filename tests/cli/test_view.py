@@ -349,9 +349,45 @@ class View(CliCase):
         child.communicate(timeout=60)
         self.assertEqual(child.returncode, 0)
 
+    def test_drive(self):
+        """With the keyboard: away to the north, to the right, and to a stop."""
+        child = self.view("--window", "64x36", "--drive", "car", "--tyres-on", "road", "--fixed-timestep", "0.2", "--samples", "1", "--camera", "0,1,0,0,0")
+        self.wait_for(lambda: self.display.colours() > 100, child)
+        window = self.display.windows()[-1]
+
+        def pose():
+            self.display.tap(window, "k")
+            return [float(n) for n in child.stdout.readline().split(",")]
+
+        def until(what):
+            for _ in range(200):
+                at = pose()
+                if what(at):
+                    return at
+            self.fail("waited in vain")
+
+        start = pose()
+        self.assertEqual(start[0], -0.35, "the driver's seat")
+        self.assertAlmostEqual(start[1], 1.2, delta=0.1)
+        self.display.key(window, "w", True)
+        until(lambda at: at[2] < start[2] - 20)
+        self.display.key(window, "d", True)
+        turned = until(lambda at: 15 < at[3] < 180)
+        self.assertGreater(turned[0], start[0])
+        for key in "wd":
+            self.display.key(window, key, False)
+        self.display.key(window, "e", True)
+        before = []
+        until(lambda at: before.append(at) or (len(before) > 1 and before[-1] == before[-2]))
+        self.assertLess(before[-1][1], 1.5, "on its wheels")
+        self.display.tap(window, ESCAPE)
+        _, err = child.communicate(timeout=60)
+        self.assertEqual(child.returncode, 0, err)
+
     def test_bad_values(self):
         (self.dir / "torn.rec").write_text("sward-record 1\nstep 1 2\n")
         (self.dir / "none.rec").mkdir()
+        (self.dir / "boat.toml").write_text("mass_kg = 900\n")
         for code, pieces, arguments in (
                 (2, ["--window", "800", "WIDTHxHEIGHT"], ["--window", "800"]),
                 (2, ["--window", "WIDTHxHEIGHT+X+Y"], ["--window", "80x60+1"]),
@@ -360,6 +396,9 @@ class View(CliCase):
                 (2, ["--replay"], ["--replay", "a", "--record", "b"]),
                 (2, ["--fixed-timestep", "fraction"], ["--fixed-timestep", "1/0"]),
                 (3, ["torn.rec:2", "words"], ["--replay", "torn.rec"]),
+                (2, ["--drive", "car, tractor"], ["--drive", "submarine"]),
+                (2, ["--tyres-on"], ["--tyres-on", "road"]),
+                (3, ["boat.toml", "front"], ["--drive", "./boat.toml"]),
                 (5, ["missing.rec"], ["--replay", "missing.rec"]),
                 (5, ["none.rec"], ["--record", "none.rec"]),
                 (5, ["nowhere"], ["--record", "nowhere/flight.rec"]),

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "app/cockpit_line.h"
+#include "app/devices.h"
 #include "app/frame_times.h"
 #include "app/keys.h"
 #include "app/parse.h"
@@ -19,6 +20,7 @@
 namespace {
 
 using namespace sward::app;
+namespace input = sward::input;
 namespace key = sward::app::key;
 
 KeyEvent down(int code, double time_s, bool ctrl = false, bool repeat = false) {
@@ -329,6 +331,42 @@ TEST(ViewScene, AnElevationFileIsASceneOfItsOwn) {
     EXPECT_EQ(scene.terrain.elevation, "/dir/" + name);
     EXPECT_EQ(scene_title(scene), name);
     EXPECT_EQ(scene_title(sward::scene::parse_scene(elevation_scene("h.raw"), "/land/hills/scene.toml")), "hills");
+}
+
+TEST(Devices, MoveAndPressWhatControlsTomlSays) {
+    const std::string guid(32, 'a');
+    input::ControlReader reader({{{guid, "", {{0, input::Axis::kSteer, false, 0, 1}, {1, input::Axis::kMoveForward, true, 0, 1}, {2, input::Axis::kLookUp, false, 0, 1}},
+                                   {{0, "pause"}, {1, "camera_3"}, {2, "hand_brake"}}}}});
+    const std::vector<float> axes = {0.5f, -1, 0.25f};
+    std::vector<unsigned char> buttons = {0, 0, 0};
+    reader.read(std::vector{input::DeviceReading{guid, axes, buttons}});
+    Input asked;
+    asked.move = {0, 0.5, -0.25};
+    add_devices(reader, asked);
+    EXPECT_EQ(asked.axis(input::Axis::kSteer), 0.5);
+    EXPECT_EQ(asked.move, glm::dvec3(0, 0.5, 0.75));
+    EXPECT_EQ(asked.look_rate, glm::dvec2(0, 0.25));
+    EXPECT_TRUE(asked.presses.empty());
+    EXPECT_FALSE(asked.hand_brake);
+
+    buttons = {1, 1, 1};
+    reader.read(std::vector{input::DeviceReading{guid, axes, buttons}});
+    asked = {};
+    add_devices(reader, asked);
+    ASSERT_EQ(asked.presses.size(), 2u);
+    EXPECT_EQ(asked.presses[0].action, Action::kPause);
+    EXPECT_EQ(asked.presses[1].action, Action::kCamera);
+    EXPECT_EQ(asked.presses[1].number, 2);
+    EXPECT_TRUE(asked.hand_brake);
+}
+
+TEST(Devices, EveryNameIsAPressAndStandsInThePage) {
+    const std::string page = sward::base::read_text(std::string(SWARD_SOURCE_DIR) + "/docs/controls.md", 1u << 20);
+    for (const std::string& name : button_actions()) {
+        EXPECT_EQ(press_named(name).has_value(), name != "hand_brake") << name;
+        EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;
+    }
+    EXPECT_FALSE(press_named("camera_0") || press_named("camera_10") || press_named(""));
 }
 
 } // namespace

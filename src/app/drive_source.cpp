@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "app/drive_source.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
+
+#include "app/controls.h"
+#include "app/parse.h"
+#include "app/paths.h"
+#include "drive/vehicle.h"
+
+namespace sward::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kDegree = glm::pi<double>() / 180;
+constexpr double kMouseDegrees = 0.12;                   // a pixel
+constexpr double kChaseBack_m = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
+constexpr double kChaseFollow_per_s = 4;                 // how fast the chase camera comes round
+constexpr double kChasePitch_deg = -9;
+constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
+constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
+
+struct Angles {
+    double yaw = 0, pitch = 0, roll = 0; // degrees
+};
+
+/// Of a frame (x right, y up, z behind), as camera_of() turns.
+Angles angles_of(const glm::dquat& turn) {
+    const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0), up = turn * glm::dvec3(0, 1, 0);
+    return {std::atan2(ahead.x, -ahead.z) / kDegree, std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree, std::atan2(-right.y, up.y) / kDegree};
+}
+
+/// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A brake pedal brakes and does not drive back.
+drive::Pedals pedals_of(const Input& asked) {
+    using input::Axis;
+    return {std::clamp(asked.move.z + asked.axis(Axis::kThrottle), -1.0, 1.0), std::clamp(asked.move.x + asked.axis(Axis::kSteer), -1.0, 1.0),
+            asked.hand_brake ? 1.0 : std::max({0.0, asked.move.y, asked.axis(Axis::kBrake)})};
+}
+
+class DriveSource : public PoseSource {
+public:
+    DriveSource(drive::VehicleSpec spec, drive::Surface surface) : spec_(std::move(spec)), surface_(surface) {}
+
+    void advance(ViewPose& pose, const PoseMoment& moment) override {
+        if (!vehicle_) // the land is the same for all of a flight
+            vehicle_.emplace(spec_, drive::DriveLand{moment.land.height, [this](double, double) { return surface_; }});
+        if (!told_ || *told_ != pose.pose.position) { // a camera's key, or the beginning
+            vehicle_->put(pose.pose.position.x, pose.pose.position.z, pose.pose.yaw_deg);
+            chase_yaw_ = pose.pose.yaw_deg;
+        }
+        for (const Press& press : moment.input.presses)
+            if (press.action == Action::kDriveCamera) {
+                camera_ = (camera_ + 1) % kCameras.size();
+                look_ = {0, 0};
+            }
+        vehicle_->advance(moment.dt_s, pedals_of(moment.input));
+        look_ += glm::dvec2(moment.input.look_px.x, -moment.input.look_px.y) * kMouseDegrees;
+        place_eye(pose, moment);
+        told_ = pose.pose.position;
+    }
+
+    [[nodiscard]] std::string note() const override {
+        return fmt::format("{} on {}, {} camera", spec_.name, kSurfaceNames[static_cast<std::size_t>(surface_)], kCameras[camera_]);
+    }
+
+    /// Wheels, and the body over them.
+    [[nodiscard]] std::vector<Ball> bodies() const override {
+        std::vector<Ball> balls;
+        if (!vehicle_)
+            return balls;
+        const drive::VehicleState state = vehicle_->state();
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double radius = spec_.axles[i / 2].radius_m;
+            balls.push_back({state.wheels[i].contact + state.turn * glm::dvec3(0, radius, 0), radius});
+        }
+        const double radius = std::min({spec_.size_m.x, spec_.size_m.y, spec_.size_m.z}) / 2;
+        const int rows = std::max(1, static_cast<int>(std::floor(spec_.size_m.z / (1.5 * radius))));
+        for (int row = 0; row < rows; ++row)
+            for (const double side : {-1.0, 1.0}) {
+                const double z = rows == 1 ? 0 : (static_cast<double>(row) / (rows - 1) - 0.5) * (spec_.size_m.z - 2 * radius);
+                const glm::dvec3 at(side * std::max(0.0, spec_.size_m.x / 2 - radius), spec_.clearance_m + radius, z);
+                balls.push_back({state.position + state.turn * at, radius});
+            }
+        return balls;
+    }
+
+private:
+    void place_eye(ViewPose& view, const PoseMoment& moment) {
+        const drive::VehicleState state = vehicle_->state();
+        const Angles angles = angles_of(state.turn);
+        glm::dvec3 at = state.position + state.turn * spec_.eye_m;
+        Angles sight = angles;
+        if (camera_ == 1) {
+            chase_yaw_ += std::remainder(angles.yaw - chase_yaw_, 360.0) * (1 - std::exp(-kChaseFollow_per_s * moment.dt_s));
+            const double yaw = (chase_yaw_ + look_.x) * kDegree, back = kChaseBack_m * spec_.size_m.z;
+            at = state.position + glm::dvec3(-std::sin(yaw) * back, spec_.size_m.y + kChaseUp_m, std::cos(yaw) * back);
+            sight = {chase_yaw_, kChasePitch_deg, 0};
+        } else if (camera_ == 2) { // beside the front wheel, towards it
+            const drive::AxleSpec& axle = spec_.axles[0];
+            at = state.position + state.turn * glm::dvec3(axle.track_m / 2 + 1.2, axle.radius_m + 0.5, -axle.ahead_m + 1.2);
+            sight.yaw -= 45;
+            sight.pitch -= 18;
+        }
+        view.pose.position = at;
+        view.pose.yaw_deg = sight.yaw + look_.x - 360 * std::floor((sight.yaw + look_.x) / 360);
+        view.pose.pitch_deg = std::clamp(sight.pitch + look_.y, -89.9, 89.9);
+        view.roll_deg = sight.roll;
+        keep_above_ground(view.pose, moment.land.height(at.x, at.z));
+    }
+
+    drive::VehicleSpec spec_;
+    drive::Surface surface_;
+    std::optional<drive::Vehicle> vehicle_;
+    std::optional<glm::dvec3> told_; ///< where the eye was put last
+    std::size_t camera_ = 0;
+    glm::dvec2 look_{0, 0};          ///< aside of the camera, degrees
+    double chase_yaw_ = 0;
+};
+
+} // namespace
+
+drive::VehicleSpec find_vehicle(const std::string& name) {
+    std::error_code ignored;
+    const fs::path shipped = vehicles_directory() / (name + ".toml");
+    if (name.find('/') == std::string::npos && fs::exists(shipped, ignored))
+        return drive::load_vehicle(shipped);
+    if (fs::exists(name, ignored))
+        return drive::load_vehicle(name);
+    std::string known;
+    for (const auto& entry : fs::directory_iterator(vehicles_directory(), ignored))
+        if (entry.path().extension() == ".toml")
+            known += (known.empty() ? "" : ", ") + entry.path().stem().string();
+    throw option_error("--drive", name, "a vehicle's file, or one that ships: " + known);
+}
+
+std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface) {
+    return std::make_unique<DriveSource>(spec, surface);
+}
+
+} // namespace sward::app
