@@ -96,7 +96,7 @@ def environment(**changes):
     return env
 
 
-def run(program, *arguments, cwd=None, env=None, prefix=(), limits=None, timeout=120):
+def run(program, *arguments, cwd=None, env=None, prefix=(), limits=None, timeout=600):
     """Runs a program of the build and waits. `prefix`: a command that runs it; `limits`: called in the child."""
     command = [*prefix, str(BIN / program), *map(str, arguments)]
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
@@ -226,7 +226,7 @@ class CliCase(unittest.TestCase):
         self.assertEqual(snapshot(self.dir), before)
 
 
-def interrupt(child, number, ready, timeout=60):
+def interrupt(child, number, ready, timeout=600):
     """Sends a signal once `ready()` holds; returns whether the program was still running then."""
     waited = 0.0
     pause = threading.Event()

@@ -58,7 +58,7 @@ class Signals(CliCase):
 
     def end_of(self, child):
         try:
-            child.communicate(timeout=30)
+            child.communicate(timeout=300)
         finally:
             child.kill()
         return child.returncode
@@ -117,7 +117,7 @@ class Signals(CliCase):
             with open(baker, encoding="ascii") as numbers:
                 for number in numbers.read().split():
                     os.kill(int(number), signal.SIGKILL)
-        _, err = child.communicate(timeout=30)
+        _, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 1, err)
         lines = err.decode().splitlines()
         self.assertEqual(len(lines), 1, err)
@@ -132,7 +132,7 @@ class Signals(CliCase):
         child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE,
                                 cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
         self.assertTrue(sward_cli.interrupt(child, signal.SIGTERM, lambda: temporaries(cache)))
-        _, err = child.communicate(timeout=30)
+        _, err = child.communicate(timeout=300)
         self.assertIn("warning: ", err.decode())
         self.assertIn("empty.toml: sets nothing", err.decode())
 

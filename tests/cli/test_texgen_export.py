@@ -409,7 +409,7 @@ class Tool(ExportCase):
                 return any(os.listdir(path) for path in (self.dir / "deep").glob(".sward-*"))
 
             alive = sward_cli.interrupt(child, number, writing)
-            _, err = child.communicate(timeout=60)
+            _, err = child.communicate(timeout=300)
             self.assertTrue(alive, err)
             self.assertEqual(child.returncode, code, err)
             self.assertEqual([p for p in self.dir.rglob("*") if ".sward-" in p.name], [])

@@ -30,7 +30,7 @@ class FaultCase(CliCase):
 
     def end_of(self, child):
         try:
-            child.communicate(timeout=60)
+            child.communicate(timeout=300)
         finally:
             child.kill()
         return child.returncode

@@ -139,7 +139,9 @@ class Display:
         self.send(window, 5, 8, 1, x, y)
 
 
-class View(CliCase):
+class ViewCase(CliCase):
+    """A scene and a display of its own."""
+
     def setUp(self):
         super().setUp()
         self.scene()
@@ -158,7 +160,8 @@ class View(CliCase):
         self.addCleanup(child.kill)
         return child
 
-    def wait_for(self, what, child, seconds=60):
+    def wait_for(self, what, child, seconds=600):
+        """A busy machine that has no shader of it yet builds them for minutes."""
         pause = threading.Event()
         for _ in range(seconds * 20):
             if what():
@@ -167,6 +170,8 @@ class View(CliCase):
             pause.wait(0.05)
         self.fail("waited in vain")
 
+
+class View(ViewCase):
     def test_frames(self):
         result = self.sward("view", "scene.toml", "--size", "320x180", "--frames", "3", "--fixed-timestep",
                             "0.1", "--debug-gl", env=self.env)
@@ -190,7 +195,7 @@ class View(CliCase):
         self.wait_for(lambda: (self.dir / "sward-0002.png").exists(), child)
         self.assertEqual((self.dir / "state/sward/recent-scenes").read_text(), f"{self.dir / 'scene.toml'}\n")
         child.send_signal(signal.SIGTERM)
-        out, err = child.communicate(timeout=30)
+        out, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 143, err)
         self.assertRegex(out, POSE)
         self.assertEqual([float(n) for n in POSE.search(out).group().split(",")], [3, 2, 1, 45, -10])
@@ -248,7 +253,7 @@ class View(CliCase):
         self.display.command(window, "s")
         self.wait_for(lambda: self.arrows() == [arrow], child)
         child.send_signal(signal.SIGTERM)
-        _, err = child.communicate(timeout=30)
+        _, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 143, err)
         self.assertNotIn("error: ", err)
         self.assert_done(self.sward("render", "scene.toml", "-o", "out.png", "--size", "32x18"))
@@ -288,7 +293,7 @@ class View(CliCase):
         self.display.tap(window, F11)
         self.wait_for(lambda: self.display.geometry(window) == (40, 30, 160, 90), child)
         self.display.tap(window, ESCAPE)
-        out, err = child.communicate(timeout=60)
+        out, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0, err)
         poses = [[float(n) for n in line.split(",")] for line in out.splitlines()]
         self.assertEqual(poses, [[5, 40, 6, 0, 0], [0, 1.7, 0, 90, -20], [0, 1.7, 0, 90, -20]])
@@ -304,7 +309,7 @@ class View(CliCase):
         before = self.display.pixels()
         self.wait_for(lambda: self.display.pixels() != before, child)  # it says that it goes on
         self.display.tap(self.display.windows()[-1], ESCAPE)
-        _, err = child.communicate(timeout=60)
+        _, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0, err)
         end = time.monotonic() + 60
         while runs(baker) and time.monotonic() < end:
@@ -324,7 +329,7 @@ class View(CliCase):
         self.display.key(window, "w", False)
         self.wait_for(lambda: steps() >= 100, child)  # it is flushed by 60
         self.display.tap(window, ESCAPE)
-        _, err = child.communicate(timeout=60)
+        _, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0, err)
         lines = [line.split() for line in (self.dir / "flight.rec").read_text().splitlines()]
         flown = [line for line in lines if line[0] == "step"]
@@ -346,43 +351,8 @@ class View(CliCase):
             ends.append(self.shot(child, window, len(ends) + 1))
         self.assertEqual(ends[-1], (self.dir / "end-0.png").read_bytes())
         self.display.tap(window, ESCAPE)
-        child.communicate(timeout=60)
+        child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0)
-
-    def test_drive(self):
-        """With the keyboard: away to the north, to the right, and to a stop."""
-        child = self.view("--window", "64x36", "--drive", "car", "--tyres-on", "road", "--fixed-timestep", "0.2", "--samples", "1", "--camera", "0,1,0,0,0")
-        self.wait_for(lambda: self.display.colours() > 100, child)
-        window = self.display.windows()[-1]
-
-        def pose():
-            self.display.tap(window, "k")
-            return [float(n) for n in child.stdout.readline().split(",")]
-
-        def until(what):
-            for _ in range(200):
-                at = pose()
-                if what(at):
-                    return at
-            self.fail("waited in vain")
-
-        start = pose()
-        self.assertEqual(start[0], -0.35, "the driver's seat")
-        self.assertAlmostEqual(start[1], 1.2, delta=0.1)
-        self.display.key(window, "w", True)
-        until(lambda at: at[2] < start[2] - 20)
-        self.display.key(window, "d", True)
-        turned = until(lambda at: 15 < at[3] < 180)
-        self.assertGreater(turned[0], start[0])
-        for key in "wd":
-            self.display.key(window, key, False)
-        self.display.key(window, "e", True)
-        before = []
-        until(lambda at: before.append(at) or (len(before) > 1 and before[-1] == before[-2]))
-        self.assertLess(before[-1][1], 1.5, "on its wheels")
-        self.display.tap(window, ESCAPE)
-        _, err = child.communicate(timeout=60)
-        self.assertEqual(child.returncode, 0, err)
 
     def test_bad_values(self):
         (self.dir / "torn.rec").write_text("sward-record 1\nstep 1 2\n")
@@ -415,7 +385,7 @@ class View(CliCase):
         child = self.view()
         self.wait_for(lambda: self.display.colours() > 100, child)
         self.display.tap(self.display.windows()[-1], ESCAPE)
-        child.communicate(timeout=30)
+        child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0)
 
 

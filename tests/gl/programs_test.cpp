@@ -277,9 +277,8 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"host_scene_depth", TEX_RESOLVE_DEPTH},
                                                 {"resolved_color", TEX_RESOLVE_COLOR},
                                                 {"resolved_data", TEX_RESOLVE_DATA}};
-    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY,
-                                      GL_SAMPLER_2D_MULTISAMPLE, GL_SAMPLER_BUFFER, GL_INT_SAMPLER_BUFFER,
-                                      GL_UNSIGNED_INT_SAMPLER_BUFFER};
+    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_MULTISAMPLE,
+                                      GL_SAMPLER_BUFFER, GL_INT_SAMPLER_BUFFER, GL_UNSIGNED_INT_SAMPLER_BUFFER};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
