@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
@@ -133,11 +134,12 @@ drive::VehicleSpec find_vehicle(const std::string& name) {
         return drive::load_vehicle(shipped);
     if (fs::exists(name, ignored))
         return drive::load_vehicle(name);
-    std::string known;
+    std::vector<std::string> known;
     for (const auto& entry : fs::directory_iterator(vehicles_directory(), ignored))
         if (entry.path().extension() == ".toml")
-            known += (known.empty() ? "" : ", ") + entry.path().stem().string();
-    throw option_error("--drive", name, "a vehicle's file, or one that ships: " + known);
+            known.push_back(entry.path().stem().string());
+    std::ranges::sort(known);
+    throw option_error("--drive", name, fmt::format("a vehicle's file, or one that ships: {}", fmt::join(known, ", ")));
 }
 
 std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface) {
