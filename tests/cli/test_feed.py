@@ -82,6 +82,32 @@ class Feed(CliCase):
         self.assert_done(result)
         return [float(n) for n in re.search(r"origin +([-\d.]+), ([-\d.]+)", result.out).groups()]
 
+    def check_answer(self, answer, latitude, longitude):
+        """An answer to a packet from 100 m north of the origin; returns the ground's height that it tells."""
+        self.assertEqual((len(answer), answer[:4], struct.unpack(">I", answer[4:8])[0]), (96, b"SWGD", 1))
+        time_s, lon, lat, x, z, ground = struct.unpack(">6d", answer[16:64])
+        north, east, down, wind_north, wind_east, _ = struct.unpack(">6f", answer[64:88])
+        surface, fdm_time = struct.unpack(">II", answer[88:96])
+        self.assertGreaterEqual(time_s, 0)
+        self.assertAlmostEqual(math.degrees(lat), latitude, places=9)
+        self.assertAlmostEqual(math.degrees(lon), longitude, places=9)
+        self.assertLess(math.hypot(x, z + 100), 1)
+        self.assertAlmostEqual(ground, 116 + 0.05 * x, delta=0.2)
+        self.assertAlmostEqual(east / -down, -0.05, delta=0.003)
+        self.assertAlmostEqual(north, 0, delta=0.003)
+        self.assertAlmostEqual(wind_east, 5, delta=1)
+        self.assertAlmostEqual(wind_north, 0, delta=1)
+        self.assertEqual(surface, 3)
+        self.assertGreater(fdm_time, 0)
+        return ground
+
+    def check_horizon(self):
+        """The right wing is down: the horizon stands higher on the right, so there is less sky."""
+        pixels = self.display.pixels()
+        columns = [[pixels[row * test_view.WIDTH + i] for row in range(HEIGHT)] for i in (10, WIDTH - 10)]
+        sky = [sum((p & 255) > (p >> 8 & 255) for p in column) for column in columns]
+        self.assertGreater(sky[0], sky[1] + HEIGHT // 5, sky)
+
     def test_aircraft(self):
         latitude, longitude = self.origin()
         answers = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
@@ -122,32 +148,14 @@ class Feed(CliCase):
             flags = struct.unpack(">I", answer[12:16])[0]
             if flags == 1:
                 break
-        self.assertEqual((len(answer), answer[:4], struct.unpack(">I", answer[4:8])[0]), (96, b"SWGD", 1))
-        time_s, lon, lat, x, z, ground = struct.unpack(">6d", answer[16:64])
-        north, east, down, wind_north, wind_east, _ = struct.unpack(">6f", answer[64:88])
-        surface, fdm_time = struct.unpack(">II", answer[88:96])
-        self.assertGreaterEqual(time_s, 0)
-        self.assertAlmostEqual(math.degrees(lat), latitude + 100 / 111_000, places=9)
-        self.assertAlmostEqual(math.degrees(lon), longitude, places=9)
-        self.assertLess(math.hypot(x, z + 100), 1)
-        self.assertAlmostEqual(ground, 116 + 0.05 * x, delta=0.2)
-        self.assertAlmostEqual(east / -down, -0.05, delta=0.003)
-        self.assertAlmostEqual(north, 0, delta=0.003)
-        self.assertAlmostEqual(wind_east, 5, delta=1)
-        self.assertAlmostEqual(wind_north, 0, delta=1)
-        self.assertEqual(surface, 3)
-        self.assertGreater(fdm_time, 0)
+        ground = self.check_answer(answer, latitude + 100 / 111_000, longitude)
 
         self.wait_for(self.display.has_panel, child)
         window = self.display.windows()[-1]
         for key in "ti":  # the panel, and the line, which has as many letters in so narrow a window
             self.display.tap(window, key)
         self.wait_for(lambda: not self.display.has_panel(), child)
-        # The right wing is down: the horizon stands higher on the right, so there is less sky.
-        pixels = self.display.pixels()
-        columns = [[pixels[row * test_view.WIDTH + i] for row in range(HEIGHT)] for i in (10, WIDTH - 10)]
-        sky = [sum((p & 255) > (p >> 8 & 255) for p in column) for column in columns]
-        self.assertGreater(sky[0], sky[1] + HEIGHT // 5, sky)
+        self.check_horizon()
         self.display.tap(window, "k")
         self.wait_for(lambda: printed, child)
         stop.set()

@@ -59,7 +59,6 @@ OVER = {
     "src/tracks/tracks.cpp:columns": 195,
     "tests/cli/test_feed.py:columns": 191,
     "tests/cli/test_feed.py:net_fdm()": 7,
-    "tests/cli/test_feed.py:test_aircraft": 77,
     "tests/cli/test_options.py:columns": 188,
     "tests/cli/test_texgen_export.py": 421,
     "tests/gl/blades_test.cpp": 405,
