@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
+#include "scene/toml_reader.h"
 #include "texgen/preset_fields.h"
 
 namespace sward::texgen {
@@ -232,14 +233,7 @@ private:
 } // namespace
 
 Preset parse_preset(const std::string& text, const fs::path& name) {
-    toml::table table;
-    try {
-        table = toml::parse(text);
-    } catch (const toml::parse_error& error) {
-        throw base::input_error(
-            ExitCode::kBadInput, name, static_cast<int>(error.source().begin.line), "TOML",
-            base::printable(error.description()), "a preset as in docs/texgen.md");
-    }
+    const toml::table table = scene::parse_toml(text, name);
     if (table.empty())
         base::log_warning(fmt::format("{}: nothing is set in it: this is plain meadow grass at its full size", base::printable(name.string(), 300)));
     Preset preset = PresetReader(name).read(table);

@@ -35,33 +35,23 @@ AxleSpec read_axle(TableReader table) {
     return axle;
 }
 
-void read_surfaces(TableReader& file, const char* key, std::array<double, kSurfaces>& values, const Range& range) {
+/// Three numbers, of three surfaces or along three axes.
+template<class Three> void read_three(TableReader& file, const char* key, Three& values, const Range& range) {
     std::vector<double> n;
     if (file.numbers(key, n, {range, range, range}))
         values = {n[0], n[1], n[2]};
 }
 
-void read_place(TableReader& file, const char* key, glm::dvec3& value, const Range& range) {
-    std::vector<double> n;
-    if (file.numbers(key, n, {range, range, range}))
-        value = {n[0], n[1], n[2]};
-}
-
 } // namespace
 
 VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
-    toml::table whole;
-    try {
-        whole = toml::parse(text, file.string());
-    } catch (const toml::parse_error& error) {
-        throw base::input_error(base::ExitCode::kBadInput, file, static_cast<int>(error.source().begin.line), "vehicle", std::string(error.description()), "TOML");
-    }
+    const toml::table whole = scene::parse_toml(text, file);
     TableReader reader(whole, file, "");
     VehicleSpec spec;
     spec.name = file.stem().string();
     reader.text("name", spec.name);
     reader.number("mass_kg", spec.mass_kg, {50, 100'000, "kg"});
-    read_place(reader, "size_m", spec.size_m, {0.2, 20, "m"});
+    read_three(reader, "size_m", spec.size_m, {0.2, 20, "m"});
     reader.number("clearance_m", spec.clearance_m, {0.02, 2, "m"});
     reader.number("mass_height_m", spec.mass_height_m, {0.05, 5, "m"});
     reader.number("power_kw", spec.power_kw, {0.1, 5000, "kW"});
@@ -70,9 +60,9 @@ VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
     reader.number("top_kmh", spec.top_kmh, {1, 400, "km/h"});
     reader.number("brake_kn", spec.brake_kn, {0.1, 1000, "kN"});
     reader.number("drag_m2", spec.drag_m2, {0, 20, "m2"});
-    read_surfaces(reader, "grip", spec.grip, {0.02, 2, ""});
-    read_surfaces(reader, "rolling", spec.rolling, {0, 0.5, ""});
-    read_place(reader, "eye_m", spec.eye_m, {-10, 10, "m"});
+    read_three(reader, "grip", spec.grip, {0.02, 2, ""});
+    read_three(reader, "rolling", spec.rolling, {0, 0.5, ""});
+    read_three(reader, "eye_m", spec.eye_m, {-10, 10, "m"});
     auto front = reader.table("front"), rear = reader.table("rear");
     reader.finish();
     reader.require("front");

@@ -6,11 +6,11 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "scene/scene.h"
+#include "scene/toml_reader.h"
 
 namespace sward::scene {
 namespace {
@@ -57,12 +57,7 @@ public:
             if (text[i] == '\n')
                 line_begin_.push_back(i + 1);
         newline_ = text.find("\r\n") == std::string::npos ? "\n" : "\r\n";
-        try {
-            document_ = toml::parse(text);
-        } catch (const toml::parse_error& error) {
-            throw base::input_error(base::ExitCode::kBadInput, file, static_cast<int>(error.source().begin.line),
-                                    "not valid TOML", error.description(), "TOML 1.0");
-        }
+        document_ = parse_toml(text, file);
     }
 
     std::string with(const std::vector<WindArrow>& arrows) {

@@ -108,6 +108,15 @@ TEST(Species, RefusesNonsenseWithKeyValueAndRange) {
         for (const std::string& part : c.says)
             EXPECT_NE(text.find(part), std::string::npos) << c.text << "'" << part << "' not in: " << text;
     }
+    // The parser would descend a level a dot, to the end of its stack.
+    const auto [code, text] = error_of([] {
+        std::string deep = "a";
+        for (int i = 0; i < 60000; ++i)
+            deep += ".a";
+        (void)parse_preset(deep + " = 1", "p.toml");
+    });
+    EXPECT_EQ(code, base::ExitCode::kOverLimit);
+    EXPECT_EQ(text.find("p.toml:1: dots in one line: found 60000"), 0u) << text;
 }
 
 /// Angle of the root's tangent from the vertical, degrees.
