@@ -60,6 +60,7 @@ HOUSES = {
     "btBullet": {"drive"},
     "backends/imgui": {"app"},
     "CLI/": {"app", "texgen/cli"},
+    "stb/": {"texgen/bake"},
     "tiny_gltf": {"assets", "grass"},
     "epoxy/": {"gl", "terrain", "blades", "shells", "wind", "tracks", "lod", "render", "app"},
     "toml++/": {"scene", "texgen/preset", "drive"},

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -11,7 +9,7 @@
 namespace sward::texgen {
 
 struct TextStyle {
-    int size = 2; ///< pixels a dot; a letter is 5 x 7 dots
+    int size = 2; ///< pixels a dot; a letter is some 6 dots wide and 7 high
     glm::dvec3 colour{0.16};
 };
 
@@ -35,7 +33,7 @@ struct Canvas {
     /// Area average of `source` over the rectangle at x0, y0, which must lie inside.
     void place(const Canvas& source, int x0, int y0, int w, int h);
     void fill(int x0, int y0, int w, int h, glm::dvec3 colour);
-    /// Letters, digits and . , : - _ + / % ( ), all small; any other is a blank.
+    /// ASCII; any other byte is a blank.
     void text(std::string_view words, int x0, int y0, const TextStyle& style = {});
 };
 
