@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/channels.h"
 #include "app/commands.h"
 #include "app/devices.h"
 #include "app/drive_source.h"
@@ -32,7 +33,9 @@ scene::Scene first_scene(const Options& options) {
     return open_scene(options.scene.empty() ? default_scene() : options.scene);
 }
 
-WindowPlace place_of(const Options& options) {
+WindowPlace place_of(const Options& options, const std::vector<Channel>& channels) {
+    if (const glm::ivec2 all = extent_of(channels); !channels.empty())
+        return {all.x, all.y, {}};
     return options.window.value_or(WindowPlace{options.frame.width, options.frame.height, {}});
 }
 
@@ -64,8 +67,9 @@ private:
 class Viewer {
 public:
     explicit Viewer(const Options& options)
-        : options_(options), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
-          window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
+        : options_(options),
+          channels_(options.channels.empty() ? std::vector<Channel>{} : read_channels(options.channels)), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
+          window_("Sward", place_of(options, channels_), options.debug_gl), panel_(window_.handle()) {
         gl::require_gl45();
         window_.use_devices(std::move(devices_));
     }
@@ -124,7 +128,7 @@ private:
         std::optional<RecordWriter> writer;
         if (!options_.record.empty())
             writer.emplace(options_.record, scene.file.string(), options_.time_s);
-        Flight flight({options_, scene, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
+        Flight flight({options_, scene, channels_, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
         return flight.run();
     }
 
@@ -137,6 +141,7 @@ private:
     }
 
     const Options& options_;
+    std::vector<Channel> channels_;
     std::optional<FlightRecord> record_; ///< --replay
     // Before the window: a port in use or a wrong file is told of first.
     FeedLinks links_;

@@ -55,6 +55,7 @@ struct Options {
     std::optional<scene::Pose> lod_eye;
     std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
+    std::filesystem::path channels;    ///< several pictures of every moment; view too. Empty: one
     std::filesystem::path replay;      ///< a record that the eye and the weather follow; view too. Empty: none
     bool raw = false;                  ///< --format rgb24: bytes of the display pictures on stdout
     std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
