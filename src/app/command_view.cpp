@@ -122,6 +122,7 @@ private:
         scene::settle_place(start, on_earth, "--camera");
         const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg : SunDay::kUsualLatitude_deg;
         const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, {links_, on_earth, links_.out ? grass_share_of(world) : GrassShare()});
+        source->add_objects(world);
         Field field = build(std::move(world), screen);
         if (options_.exit_after == 0)
             note_recent(recent_file(), scene.file);

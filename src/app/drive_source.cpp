@@ -9,11 +9,14 @@
 
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
 #include "app/parse.h"
 #include "app/paths.h"
 #include "drive/vehicle.h"
+#include "drive/vehicle_mesh.h"
+#include "render/world.h"
 
 namespace sward::app {
 namespace {
@@ -92,6 +95,40 @@ public:
         return balls;
     }
 
+    void add_objects(render::World& world) override {
+        first_ = world.scene.objects.size();
+        const glm::dvec3 paint(0.32, 0.03, 0.03), roof(0.05), rubber(0.03);
+        // Names that no file has.
+        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) {
+            world.meshes.insert_or_assign(name, mesh);
+            scene::ObjectSpec object;
+            object.kind = "mesh";
+            object.mesh = name;
+            object.colour = colour;
+            object.collides = false; // bodies() push the grass
+            world.scene.objects.push_back(object);
+        };
+        add("vehicle/body", drive::body_mesh(spec_), paint);
+        add("vehicle/roof", drive::roof_mesh(spec_), roof);
+        for (std::size_t i = 0; i < 4; ++i)
+            add(i < 2 ? "vehicle/front wheel" : "vehicle/rear wheel", drive::wheel_mesh(spec_.axles[i / 2]), rubber);
+    }
+
+    [[nodiscard]] std::vector<Body> objects() const override {
+        std::vector<Body> bodies;
+        if (!vehicle_)
+            return bodies;
+        const auto add = [&](const glm::dvec3& at, const glm::dquat& turn) {
+            bodies.push_back({first_ + bodies.size(), glm::translate(glm::dmat4(1), at) * glm::mat4_cast(turn)});
+        };
+        const drive::VehicleState state = vehicle_->state();
+        add(state.position, state.turn);
+        add(state.position, state.turn);
+        for (const drive::WheelState& wheel : state.wheels)
+            add(wheel.hub, wheel.turn);
+        return bodies;
+    }
+
 private:
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const drive::VehicleState state = vehicle_->state();
@@ -121,6 +158,7 @@ private:
     std::optional<drive::Vehicle> vehicle_;
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0;
+    std::size_t first_ = 0;          ///< of its objects in the scene
     glm::dvec2 look_{0, 0};          ///< aside of the camera, degrees
     double chase_yaw_ = 0;
 };

@@ -116,6 +116,8 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
 void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
     if (const std::vector<Ball> bodies = source_.bodies(); !bodies.empty())
         field_.set_colliders(bodies, clock_.time_s());
+    if (const std::vector<Body> objects = source_.objects(); !objects.empty())
+        field_.set_objects(objects, clock_.time_s());
     const SimulationLimits limits = render::limits_of(settings_);
     if (parts_.record == nullptr && parts_.replay == nullptr) {
         std::vector<glm::dvec3> eyes;

@@ -245,6 +245,11 @@ struct Vehicle::Inside {
         now.velocity_ms = of_bullet(body->getLinearVelocity());
         for (std::size_t i = 0; i < 4; ++i) {
             const btWheelInfo& wheel = vehicle->getWheelInfo(static_cast<int>(i));
+            // Not by updateWheelTransform(), which forgets what the wheel touches.
+            const btScalar length = wheel.m_raycastInfo.m_suspensionLength;
+            now.wheels[i].hub = origin + of_bullet(place * (wheel.m_chassisConnectionPointCS + wheel.m_wheelDirectionCS * length));
+            now.wheels[i].turn = now.turn * glm::angleAxis(static_cast<double>(wheel.m_steering), glm::dvec3(0, 1, 0)) *
+                                 glm::angleAxis(-static_cast<double>(wheel.m_rotation), glm::dvec3(1, 0, 0));
             now.wheels[i].touches = wheel.m_raycastInfo.m_isInContact;
             now.wheels[i].contact = origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS);
             now.wheels[i].load_n = wheel.m_raycastInfo.m_isInContact ? static_cast<double>(wheel.m_wheelsSuspensionForce) : 0;
@@ -293,6 +298,10 @@ VehicleState Vehicle::state() const {
     between.position = a.position + (b.position - a.position) * share;
     between.turn = glm::slerp(a.turn, b.turn, share);
     between.velocity_ms = a.velocity_ms + (b.velocity_ms - a.velocity_ms) * share;
+    for (std::size_t i = 0; i < 4; ++i) {
+        between.wheels[i].hub = a.wheels[i].hub + (b.wheels[i].hub - a.wheels[i].hub) * share;
+        between.wheels[i].turn = glm::slerp(a.wheels[i].turn, b.wheels[i].turn, share);
+    }
     return between;
 }
 

@@ -30,6 +30,8 @@ struct WheelState {
     bool touches = false;
     glm::dvec3 contact{0}; ///< on the ground, where it touches
     double load_n = 0;
+    glm::dvec3 hub{0};           ///< its middle
+    glm::dquat turn{1, 0, 0, 0}; ///< of its frame (axle along x) in the world: steered, and rolled on
 };
 
 struct VehicleState {
