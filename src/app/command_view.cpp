@@ -10,6 +10,7 @@
 #include "app/devices.h"
 #include "app/drive_source.h"
 #include "app/flight.h"
+#include "app/fly_source.h"
 #include "app/io.h"
 #include "app/joystick_list.h"
 #include "app/load_screen.h"
@@ -160,6 +161,8 @@ void run_view(const Options& options) {
     static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
     if (!options.drive.empty())
         static_cast<void>(find_vehicle(options.drive)); // likewise
+    if (!options.fly.empty())
+        static_cast<void>(find_aircraft(options.fly));
     gl::DebugMessages messages;
     Viewer viewer(options);
     if (options.debug_gl)

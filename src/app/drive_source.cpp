@@ -8,12 +8,12 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
-#include "app/parse.h"
+#include "app/model_files.h"
 #include "app/paths.h"
+#include "app/turn_angles.h"
 #include "drive/vehicle.h"
 #include "drive/vehicle_mesh.h"
 #include "render/world.h"
@@ -21,25 +21,12 @@
 namespace sward::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kDegree = glm::pi<double>() / 180;
 constexpr double kMouseDegrees = 0.12;                   // a pixel
 constexpr double kChaseBack_m = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
 constexpr double kChaseFollow_per_s = 4;                 // how fast the chase camera comes round
 constexpr double kChasePitch_deg = -9;
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
 constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
-
-struct Angles {
-    double yaw = 0, pitch = 0, roll = 0; // degrees
-};
-
-/// Of a frame (x right, y up, z behind), as camera_of() turns.
-Angles angles_of(const glm::dquat& turn) {
-    const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0), up = turn * glm::dvec3(0, 1, 0);
-    return {std::atan2(ahead.x, -ahead.z) / kDegree, std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree, std::atan2(-right.y, up.y) / kDegree};
-}
 
 /// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A brake pedal brakes and does not drive back.
 drive::Pedals pedals_of(const Input& asked) {
@@ -98,16 +85,7 @@ public:
     void add_objects(render::World& world) override {
         first_ = world.scene.objects.size();
         const glm::dvec3 paint(0.32, 0.03, 0.03), roof(0.05), rubber(0.03);
-        // Names that no file has.
-        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) {
-            world.meshes.insert_or_assign(name, mesh);
-            scene::ObjectSpec object;
-            object.kind = "mesh";
-            object.mesh = name;
-            object.colour = colour;
-            object.collides = false; // bodies() push the grass
-            world.scene.objects.push_back(object);
-        };
+        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) { add_model_mesh(world, name, mesh, colour); };
         add("vehicle/body", drive::body_mesh(spec_), paint);
         add("vehicle/roof", drive::roof_mesh(spec_), roof);
         for (std::size_t i = 0; i < 4; ++i)
@@ -166,18 +144,7 @@ private:
 } // namespace
 
 drive::VehicleSpec find_vehicle(const std::string& name) {
-    std::error_code ignored;
-    const fs::path shipped = vehicles_directory() / (name + ".toml");
-    if (name.find('/') == std::string::npos && fs::exists(shipped, ignored))
-        return drive::load_vehicle(shipped);
-    if (fs::exists(name, ignored))
-        return drive::load_vehicle(name);
-    std::vector<std::string> known;
-    for (const auto& entry : fs::directory_iterator(vehicles_directory(), ignored))
-        if (entry.path().extension() == ".toml")
-            known.push_back(entry.path().stem().string());
-    std::ranges::sort(known);
-    throw option_error("--drive", name, fmt::format("a vehicle's file, or one that ships: {}", fmt::join(known, ", ")));
+    return drive::load_vehicle(find_model("--drive", vehicles_directory(), name));
 }
 
 std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface) {

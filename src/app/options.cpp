@@ -249,6 +249,11 @@ void declare_view(CLI::App& app, Options* o) {
             throw option_error("--drive", text, "car, tractor or a vehicle's file");
         o->drive = text;
     })->excludes("--replay")->excludes("--native-fdm");
+    declare(app, "--fly", "AIRCRAFT", "trainer or an aircraft's file: the keyboard flies it", [=](const std::string& text) {
+        if (text.empty() || text.find('\0') != std::string::npos)
+            throw option_error("--fly", text, "trainer or an aircraft's file");
+        o->fly = text;
+    })->excludes("--replay")->excludes("--native-fdm")->excludes("--drive");
     declare(app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
             [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
         ->needs("--drive");

@@ -77,6 +77,7 @@ struct Options {
     bool list_joysticks = false;              ///< in the place of a window
     std::filesystem::path record; ///< written as the flight goes on; empty: none
     std::string drive;            ///< a vehicle that ships, or its file; empty: the free camera
+    std::string fly;              ///< likewise an aircraft
     drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
     std::optional<WindowPlace> window; ///< none: of `frame`'s size
     int exit_after = 0; ///< frames; 0: until it is closed

@@ -7,40 +7,21 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "scene/mesh_build.h"
+
 namespace sward::drive {
 namespace {
 
 using glm::dvec2;
 using glm::dvec3;
+using scene::add_outward;
+using scene::add_quad;
 
 constexpr double kBelt = 0.54;       // of the body's height: where windows begin
 constexpr double kArch = 1.12;       // of a wheel's radius
 constexpr int kStations = 48;        // along the body; an arch is some ten of them
 constexpr int kSpokes = 24;
 constexpr double kGap_m = 0.08;      // from a high wheel to the body between the wheels
-
-/// Flat faces: every one has corners of its own.
-void add_quad(scene::Mesh& mesh, const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
-    const dvec3 across = glm::cross(c - a, d - b);
-    const double area = glm::length(across);
-    if (!(area > 1e-9))
-        return;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const dvec3& corner : {a, b, c, d}) {
-        mesh.positions.emplace_back(corner);
-        mesh.normals.emplace_back(across / area);
-    }
-    mesh.triangles.push_back({first, first + 1, first + 2});
-    mesh.triangles.push_back({first, first + 2, first + 3});
-}
-
-/// The same, seen from outside a convex body about `middle`.
-void add_outward(scene::Mesh& mesh, const dvec3& middle, const dvec3& a, const dvec3& b, const dvec3& c, const dvec3& d) {
-    if (glm::dot(glm::cross(c - a, d - b), (a + b + c + d) / 4.0 - middle) < 0)
-        add_quad(mesh, d, c, b, a);
-    else
-        add_quad(mesh, a, b, c, d);
-}
 
 /// A bar from one end to the other, `thick` wide along x and z.
 void add_pillar(scene::Mesh& mesh, const dvec3& foot, const dvec3& head, double thick) {

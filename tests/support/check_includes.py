@@ -13,8 +13,9 @@ import tempfile
 from pathlib import Path
 
 ARROWS = {
-    "app": {"render", "assets", "feed", "input", "drive"},
+    "app": {"render", "assets", "feed", "input", "drive", "fly"},
     "drive": {"scene"},
+    "fly": {"scene"},
     "render": {"blades", "shells", "tracks"},
     "blades": {"lod", "wind"},
     "shells": {"lod", "wind"},
