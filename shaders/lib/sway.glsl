@@ -36,8 +36,8 @@ Sway sway_of(vec2 wind, TrackSeen track) {
 
 // canopy_sway for the set's first species, sun and eye; x, z of where the bend turns an upright blade at kLeanHeight.
 vec4 sway_at(vec3 ground, vec2 wind) {
-    float canopy = frame.patch_grid.w;
-    vec3 to_eye = normalize(frame.eye.xyz - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
+    float canopy = frame.canopy_m;
+    vec3 to_eye = normalize(frame.eye - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
     vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.mean.w);
     vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.mean.w);
     return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun.xyz, to_eye), lean.xz);
@@ -47,7 +47,7 @@ vec4 sway_at(vec3 ground, vec2 wind) {
 vec4 sway_at(vec3 ground, Sway sway) {
     vec4 light = sway_at(ground, sway.wind);
     if (has_tracks()) {
-        light.x *= lying_light(sway.pressed, sway.lying, normalize(frame.eye.xyz - ground));
+        light.x *= lying_light(sway.pressed, sway.lying, normalize(frame.eye - ground));
     }
     return light;
 }
@@ -65,6 +65,6 @@ vec4 sway_over(vec3 ground, vec2 wind, TrackSeen track) {
             }
         }
     }
-    light.x *= lying_light(track.pressed, track.lying, normalize(frame.eye.xyz - ground));
+    light.x *= lying_light(track.pressed, track.lying, normalize(frame.eye - ground));
     return light;
 }

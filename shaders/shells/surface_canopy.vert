@@ -46,7 +46,7 @@ float reached_over(float top) {
 
 void main() {
     vec3 root = position + surface_origin.xyz;
-    float canopy = frame.patch_grid.w;
+    float canopy = frame.canopy_m;
     vec2 level = wind_at(root.xz);
     normal = normal_in;
     wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2

@@ -139,14 +139,15 @@ void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
 }
 
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
-    frame.clip_layout.x = levels();
-    frame.clip_layout.w = source_->mask_mode;
-    frame.mask_place = {glm::vec2((anchor - source_->mask_first) / source_->mask_size), glm::vec2(1.0 / source_->mask_size)};
+    frame.clip_levels = levels();
+    frame.mask_mode = source_->mask_mode;
+    frame.mask_offset = glm::vec2((anchor - source_->mask_first) / source_->mask_size);
+    frame.mask_per_m = glm::vec2(1.0 / source_->mask_size);
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.
         const glm::dvec2 offset = glm::fract(anchor / period) + 0.5 / shared::kClipCells;
-        frame.clip[level] = {offset.x, offset.y, 1 / period, spacing(level)};
+        frame.clip[level] = {glm::vec2(offset), static_cast<float>(1 / period), static_cast<float>(spacing(level))};
     }
 }
 

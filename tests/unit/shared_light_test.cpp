@@ -211,14 +211,14 @@ TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
 TEST(FarTable, PublishedSharesAreWholeShellsAndSlicesNearGrazing) {
     const shared::FarShares shares = shells::published_shares();
     const auto row = [](float degrees) { return static_cast<int>(degrees / 90 * shared::kShareSteps); };
-    EXPECT_EQ(shares.shells[row(90)], glm::vec4(1));
-    EXPECT_EQ(shares.shells[row(0)], glm::vec4(1));
-    EXPECT_EQ(shares.slices[row(0)].x, 1);
-    EXPECT_NEAR(shares.slices[row(15)].x, 1 - std::sin(shared::kPi / 12), 1e-6f);
-    EXPECT_EQ(shares.slices[row(30)].x, 0);
+    EXPECT_EQ(shares.steps[row(90)].shells, glm::vec4(1));
+    EXPECT_EQ(shares.steps[row(0)].shells, glm::vec4(1));
+    EXPECT_EQ(shares.steps[row(0)].slices, 1);
+    EXPECT_NEAR(shares.steps[row(15)].slices, 1 - std::sin(shared::kPi / 12), 1e-6f);
+    EXPECT_EQ(shares.steps[row(30)].slices, 0);
     const grass::GrassSet set = tests::synthetic_set();
     const shared::FarShares fitted = shells::fitted_shares(set);
-    EXPECT_EQ(fitted.shells[row(45)], shells::shell_share_at(set, shared::kPi / 4));
+    EXPECT_EQ(fitted.steps[row(45)].shells, shells::shell_share_at(set, shared::kPi / 4));
 }
 
 TEST(FarTable, ShellSharesInterpolateByLevel) {
