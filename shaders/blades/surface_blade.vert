@@ -26,7 +26,7 @@ out BladeVertex {
 // A point of the curve at rest, as the wind along the surface (B2) moves it in the far field (B3).
 vec3 bent(vec3 point, vec3 up, vec3 along) {
     float speed = length(along);
-    vec3 moved = bend_offset(dot(point, up), surface_origin.w, vec2(speed, 0.0), frame.wind.mean.w);
+    vec3 moved = bend_offset(dot(point, up), surface_origin.w, vec2(speed, 0.0), frame.wind.response);
     return point + along * (moved.x / max(speed, 1e-4)) + up * moved.y;
 }
 

@@ -46,12 +46,12 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
     pose.sway = sway_at(pose.root.xz);
     vec2 wind = pose.sway.wind;
     float shell = pose_share(blade.root.z, pose.from_eye, frame.pose_band);
-    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.canopy_m, frame.wind.mean.w, shell), wind);
+    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.canopy_m, frame.wind.response, shell), wind);
     vec2 ahead = track_ahead(pose.root.xz, 0.0, 1.0);
     if (dot(ahead, ahead) > 0.0) {
         vec3 tip1 = blade.v1.xyz;
         vec3 tip2 = blade.v2.xyz;
-        pose_blade(tip1, tip2, vec4(blade.shape.y, frame.canopy_m, frame.wind.mean.w, shell), sway_tip(pose.root.xz, pose.sway, ahead));
+        pose_blade(tip1, tip2, vec4(blade.shape.y, frame.canopy_m, frame.wind.response, shell), sway_tip(pose.root.xz, pose.sway, ahead));
         pose.v1 = mix(pose.v1, tip1, 0.5);
         pose.v2 = tip2;
         keep_length(pose.v1, pose.v2, blade.shape.y);
@@ -63,7 +63,7 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
         pose.v2.y *= lying;
     }
     // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
+    float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.response);
     vec3 flutter = flutter_at(frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
     pose.facing = blade.shape.x + flutter.z;

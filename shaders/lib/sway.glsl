@@ -20,17 +20,17 @@ Sway sway_at(vec2 xz) {
     }
     TrackSeen track = track_at(xz, 0.0);
     vec2 pressed = sway_pressed(track);
-    return Sway(sway_wind(wind, frame.wind.mean.w, track.theta, pressed), pressed, track.lying, 1.0);
+    return Sway(sway_wind(wind, frame.wind.response, track.theta, pressed), pressed, track.lying, 1.0);
 }
 
 // What bends its tip, whose bend comes from farther ahead (C3).
 vec2 sway_tip(vec2 xz, Sway root, vec2 ahead) {
-    return sway_wind(wind_at(xz), frame.wind.mean.w, track_at(xz + ahead, 0.0).theta, root.pressed);
+    return sway_wind(wind_at(xz), frame.wind.response, track_at(xz + ahead, 0.0).theta, root.pressed);
 }
 
 // A footprint's, from the wind there.
 Sway sway_of(vec2 wind, TrackSeen track) {
-    SwayMean mean = sway_mean(wind, frame.wind.mean.w, track);
+    SwayMean mean = sway_mean(wind, frame.wind.response, track);
     return Sway(mean.wind, track.pressed, track.lying, mean.aligned);
 }
 
@@ -38,8 +38,8 @@ Sway sway_of(vec2 wind, TrackSeen track) {
 vec4 sway_at(vec3 ground, vec2 wind) {
     float canopy = frame.canopy_m;
     vec3 to_eye = normalize(frame.eye - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
-    vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.mean.w);
-    vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.mean.w);
+    vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.response);
+    vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.response);
     return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun.xyz, to_eye), lean.xz);
 }
 
@@ -56,12 +56,12 @@ vec4 sway_at(vec3 ground, Sway sway) {
 vec4 sway_over(vec3 ground, vec2 wind, TrackSeen track) {
     vec4 light = vec4(0.0);
     if (sway_is_even(track)) {
-        light = sway_at(ground, sway_wind(wind, frame.wind.mean.w, track.theta, sway_pressed(track)));
+        light = sway_at(ground, sway_wind(wind, frame.wind.response, track.theta, sway_pressed(track)));
     } else {
         for (int n = 0; n < kSwayWays; ++n) {
             vec3 way = sway_way(track, n);
             if (way.z > 0.01) {
-                light += way.z * sway_at(ground, sway_wind(wind, frame.wind.mean.w, track.theta, way.xy * track.lying));
+                light += way.z * sway_at(ground, sway_wind(wind, frame.wind.response, track.theta, way.xy * track.lying));
             }
         }
     }

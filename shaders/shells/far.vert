@@ -80,8 +80,8 @@ void main() {
 #endif
     sway = here.sway;
     rest = vec3(xz.x, y, xz.y);
-    world = vec3(xz.x, here.height_m + y, xz.y) + bend_offset(y, frame.canopy_m, here.wind, frame.wind.mean.w);
-    turn = bend_turn(y, frame.canopy_m, here.wind, frame.wind.mean.w);
+    world = vec3(xz.x, here.height_m + y, xz.y) + bend_offset(y, frame.canopy_m, here.wind, frame.wind.response);
+    turn = bend_turn(y, frame.canopy_m, here.wind, frame.wind.response);
     ground_here = vec4(here.height_m, here.density, here.sun_cosine, here.tint);
     ground_slope = vec3(here.slope, family_share(world - frame.eye, here.slope, here.bend, instance.level));
     haze = haze_of(frame.light, world - frame.eye);

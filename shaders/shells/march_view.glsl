@@ -73,7 +73,7 @@ Entry entry_on_track(View view, Entry entry) {
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
     TrackSeen track = track_nothing();
-    entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.mean.w).y;
+    entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.response).y;
     vec3 at;
     for (int n = 0; n < kTrackSteps; ++n) {
         at = frame.eye + view.way * min(entry.distance, kFarthest);
@@ -92,7 +92,7 @@ Entry entry_on_track(View view, Entry entry) {
         Sway here = sway_of(standing.xy, track);
         entry.air.xy = here.wind;
         entry.aligned = here.aligned;
-        float down = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.mean.w).y);
+        float down = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.response).y);
         if (down < 0.02 * canopy || n == kTrackSteps - 1) {
             break;
         }
@@ -129,7 +129,7 @@ MarchPath path_of(View view, Entry entry) {
     vec3 at = frame.eye + view.way * entry.distance;
     float canopy = frame.canopy_m;
     float speed = length(entry.air.xy);
-    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
+    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.response) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
     float height = min(entry.height, path.bend.w);

@@ -50,7 +50,7 @@ void main() {
     vec2 level = wind_at(root.xz);
     normal = normal_in;
     wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2
-    float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.mean.w).y;
+    float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.response).y;
     height = lift * top * min(chart_lift.y, 1.0);
     on_top = chart_lift.y - 1.0;
     room = min(most_lift() / top, 1.0) + reached_over(top);

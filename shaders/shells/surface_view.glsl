@@ -79,7 +79,7 @@ MarchPath path_of(View view, Entry entry) {
     MarchPath path;
     float canopy = frame.canopy_m;
     float speed = length(entry.air.xy);
-    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
+    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.response) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
     path.way = to_surface(entry.frame, view.way);

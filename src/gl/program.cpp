@@ -165,7 +165,8 @@ int Program::location(const char* uniform) const {
             return at;
         }
     }
-    if (std::find(declared_.begin(), declared_.end(), uniform) == declared_.end()) {
+    const std::string_view whole = std::string_view(uniform).substr(0, std::string_view(uniform).find_first_of(".["));
+    if (std::find(declared_.begin(), declared_.end(), whole) == declared_.end()) {
         throw Error(ExitCode::kNoGpu, fmt::format("{}: no shader of this program declares the uniform {}", name_, uniform));
     }
     return -1; // one that the compiler left out

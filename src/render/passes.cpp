@@ -15,7 +15,7 @@ namespace {
 /// Where the mean wind turns an upright blade, at kLeanHeight: x, z.
 glm::vec2 mean_bend(const shared::FrameConstants& frame) {
     const float canopy = frame.canopy_m;
-    const glm::vec3 turn = shared::bend_turn(shared::kLeanHeight * canopy, canopy, {frame.wind.mean.x, frame.wind.mean.y}, frame.wind.mean.w);
+    const glm::vec3 turn = shared::bend_turn(shared::kLeanHeight * canopy, canopy, frame.wind.mean, frame.wind.response);
     return {turn.x, turn.z};
 }
 

@@ -149,11 +149,11 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
 }
 
 void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
-    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_) {
+    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && glm::vec4(wind.mean, 0, wind.response) == wind_) {
         return;
     }
     light_ = light;
-    wind_ = wind.mean;
+    wind_ = {wind.mean, 0, wind.response};
     std::vector<glm::vec4> texels;
     for (int n = 0; n < shared::kFarWinds; ++n) {
         const std::vector<glm::vec4> one = canopy_table(set_.far_light, light, {shared::far_wind(wind, n), 0, wind_.w});

@@ -135,7 +135,7 @@ MarchLight::MarchLight(const grass::GrassSet& set, bool mesh) : far_light_(set.f
 }
 
 bool MarchLight::is_of(const shared::Light& light, const shared::WindField& wind) const {
-    return mean_.empty() || (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_);
+    return mean_.empty() || (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && glm::vec4(wind.mean, 0, wind.response) == wind_);
 }
 
 void MarchLight::update(const shared::Light& light, const shared::WindField& wind) {
@@ -172,7 +172,7 @@ bool MarchLight::add_part() {
     static_assert(shared::kFarWinds < 4, "a channel each");
     const int sun = parts_ / shared::kFarWinds, gust = parts_ % shared::kFarWinds;
     const shared::Light from = suns_ == 1 ? next_light_ : light_from(next_light_, glm::mix(kLowestSun, 1.0f, static_cast<float>(sun) / (kSuns - 1)));
-    const std::vector<float> part = light_factors(mean_.front(), far_light_, from, {shared::far_wind(next_wind_, gust), 0, next_wind_.mean.w});
+    const std::vector<float> part = light_factors(mean_.front(), far_light_, from, {shared::far_wind(next_wind_, gust), 0, next_wind_.response});
     for (std::size_t i = 0; i < part.size(); ++i) {
         next_[static_cast<std::size_t>(sun) * part.size() + i][gust] = part[i];
     }
@@ -180,7 +180,7 @@ bool MarchLight::add_part() {
         return false;
     }
     light_ = next_light_;
-    wind_ = next_wind_.mean;
+    wind_ = {next_wind_.mean, 0, next_wind_.response};
     parts_ = 0;
     if (!table_.id()) {
         table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, suns_});

@@ -355,9 +355,9 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         vec3 v1(blade.v1), v2(blade.v2);
         const vec2 wind = world_.wind_at(vec2(at.x, at.z));
         shared::pose_blade(
-            v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
+            v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.response, shell),
             wind);
-        const float response = world_.frame.wind.mean.w;
+        const float response = world_.frame.wind.response;
         const vec3 flutter = shared::flutter_at(
             world_.frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.z, blade.root.w),
             (1 - shell) * shared::flutter_amplitude(glm::length(wind), response));
