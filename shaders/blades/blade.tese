@@ -36,12 +36,12 @@ void main() {
 #ifdef SURFACE
     float level = gl_TessLevelOuter[0];
     bool of_set = surface_shape.x == kShapeOfSet;
-    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    BladeOutline outline = frame.looks[int(blade_in[0].ground.z)].outline;
     float v = of_set ? blade_station(gl_TessCoord.y, outline) : surface_blade_station(gl_TessCoord.y, surface_shape, level);
     vec3 t1 = blade_in[0].across.xyz;
     open_sky = blade_in[0].sway.z;
 #else
-    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    BladeOutline outline = frame.looks[int(blade_in[0].ground.z)].outline;
     float v = blade_station(gl_TessCoord.y, outline);
     vec3 t1 = blade_width_direction(blade_in[0].v2.w);
 #endif

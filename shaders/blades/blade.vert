@@ -25,6 +25,6 @@ void main() {
     blade_out.v1 = vec4(pose.v1, blade.v1.w);
     blade_out.v2 = vec4(pose.v2, pose.facing);
     blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / frame.canopy_m, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), tint, blade.shape.w, pose.simulated);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun), tint, blade.shape.w, pose.simulated);
     gl_Position = vec4(0.0);
 }

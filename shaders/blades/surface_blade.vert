@@ -85,7 +85,7 @@ void main() {
                         : 0.5 * (vec2(dot(v1, up), dot(v2, up)) + height * vec2(0.5, 1.0));
     float species = of_set ? floor(blade.root_direction.w / (2.0 * kPi)) : 0.0;
     blade_out.rest = vec4(above / surface_origin.w, surface_rank_seed(index));
-    blade_out.ground = vec4(dot(up, frame.light.to_sun.xyz), surface_tint(blade.root_direction.xyz), species, alive);
+    blade_out.ground = vec4(dot(up, frame.light.to_sun), surface_tint(blade.root_direction.xyz), species, alive);
     blade_out.across = vec4(surface_width_direction(up, blade.root_direction.w), 0.0);
     gl_Position = vec4(0.0);
 }

@@ -79,9 +79,9 @@ uint pictures_of(Capsule piece, uint mask) {
 }
 
 // Greatest distance of the blade's surface from its middle line between two stations, over its half width.
-float reach_of(float from, float to, vec4 outline) {
-    float stalk = outline.y * (1.0 - pow(from, outline.x));
-    float head = outline.z < 1.0 && to > outline.z ? 1.0 : 0.0;
+float reach_of(float from, float to, BladeOutline outline) {
+    float stalk = outline.stalk * (1.0 - pow(from, outline.taper));
+    float head = outline.head_from < 1.0 && to > outline.head_from ? 1.0 : 0.0;
     return max(max(stalk, head), 0.5 * (1.0 - from)); // the fold stands out by the last
 }
 
@@ -92,7 +92,7 @@ vec2 extent(vec4 clip, vec3 way) {
 }
 
 // Of a blade's rims and of its fold at a station, whose vertices these are.
-vec2 station_extent(vec4 clip, float v, float width, BladePose pose, vec4 outline) {
+vec2 station_extent(vec4 clip, float v, float width, BladePose pose, BladeOutline outline) {
     vec3 across = blade_width_direction(pose.facing);
     vec3 normal = normalize(cross(blade_tangent(pose.v1, pose.v2, v), across));
     return max(extent(clip, across * (width * blade_width_at(v, outline))), extent(clip, normal * (width * 0.5 * (1.0 - v))));
@@ -100,7 +100,7 @@ vec2 station_extent(vec4 clip, float v, float width, BladePose pose, vec4 outlin
 
 // The pictures that a sample of may fall on the blade as blade.tesc and blade.tese draw it.
 uint pictures_with(BladeRecord blade, BladePose pose) {
-    vec4 outline = frame.looks[int(blade.shape.w)].outline;
+    BladeOutline outline = frame.looks[int(blade.shape.w)].outline;
     vec4 root = frame.clip_from_world * vec4(pose.root, 1.0);
     vec4 clip1 = frame.clip_from_world * vec4(pose.v1, 0.0);
     vec4 clip2 = frame.clip_from_world * vec4(pose.v2, 0.0);
@@ -108,7 +108,7 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
     float nearest = root.w + min(min(clip1.w, clip2.w), 0.0) - 2.0 * width;
     float pixels = frame.focal_px / max(distance(pose.root, frame.eye), 0.05);
     float wanted = (length(pose.v1) + length(pose.v2 - pose.v1)) * pixels / frame.segment_px;
-    bool head = outline.z < 1.0;
+    bool head = outline.head_from < 1.0;
     bool unsure = wanted > 7.99 || (!head && wanted > 1.5 && abs(fract(wanted) - 0.5) > 0.49); // how many segments rounding makes
     if (nearest < 2.0 * frame.near_m || unsure) {
         return all_pictures(); // clipped, or long: not worth the trouble

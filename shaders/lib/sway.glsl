@@ -40,7 +40,7 @@ vec4 sway_at(vec3 ground, vec2 wind) {
     vec3 to_eye = normalize(frame.eye - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
     vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.response);
     vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.response);
-    return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun.xyz, to_eye), lean.xz);
+    return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun, to_eye), lean.xz);
 }
 
 // The same with what lies there.

@@ -129,7 +129,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
     Light light = light_at(entry);
     vec3 normal = normal_at(entry);
-    float slope = dot(normal, frame.light.to_sun.xyz); // both in the world
+    float slope = dot(normal, frame.light.to_sun); // both in the world
     float steepness = march_steepness(plan, path.way.y);
     float ground = kOnGround * ground_reach(path);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));

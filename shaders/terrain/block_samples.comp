@@ -26,5 +26,5 @@ void main() {
 #endif
     vec2 wind = wind_at(xz);
     vec4 swaying = sway_at(vec3(xz.x, height, xz.y), wind);
-    samples[index] = BlockSample(height, ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint, slope, wind, swaying.xy, swaying.zw);
+    samples[index] = BlockSample(height, ground.density, dot(ground.normal, frame.light.to_sun), ground.tint, slope, wind, swaying.xy, swaying.zw);
 }

@@ -67,7 +67,7 @@ void main() {
     }
     float coverage = 1.0 - pow(1.0 - min(canopy.sun.a, 0.999), ground.density * left_shells);
     // The table is of flat ground.
-    float slope = dot(ground.normal, frame.light.to_sun.xyz);
+    float slope = dot(ground.normal, frame.light.to_sun);
     float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
     vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.focal_px));
 

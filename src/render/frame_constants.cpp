@@ -39,11 +39,15 @@ shared::Light light_of(const scene::SunSpec& sun) {
     const glm::dvec3 through = glm::exp(-glm::dvec3(0.06, 0.11, 0.22) * air); // clear-air optical depths at R, G, B
     const double dusk = glm::smoothstep(-6.0, 8.0, sun.elevation_deg);
     shared::Light light{};
-    light.to_sun = glm::vec4(glm::vec3(to_sun), shared::kSunExtinction);
-    light.sun = glm::vec4(glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg)), 2.2e-5f);
-    light.zenith = glm::vec4(glm::vec3(glm::dvec3(0.16, 0.36, 0.86) * (0.05 + 0.95 * dusk)), shared::kSkyExtinction);
-    light.horizon = glm::vec4(glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
-                                        (0.04 + 0.96 * dusk)), 1);
+    light.to_sun = glm::vec3(to_sun);
+    light.sun_extinction = shared::kSunExtinction;
+    light.sun = glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg));
+    light.haze_per_m = 2.2e-5f;
+    light.zenith = glm::vec3(glm::dvec3(0.16, 0.36, 0.86) * (0.05 + 0.95 * dusk));
+    light.sky_extinction = shared::kSkyExtinction;
+    light.horizon = glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
+                              (0.04 + 0.96 * dusk));
+    light.exposure = 1;
     return light;
 }
 

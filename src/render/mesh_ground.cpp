@@ -42,10 +42,13 @@ void MeshGround::describe(shared::FrameConstants& frame, bool far_field) const {
         return;
     }
     shared::GrassAppearance& look = frame.looks[0];
-    look.root = glm::vec4(glm::vec3(spec_.root_colour), spec_.dry_share);
-    look.tip = glm::vec4(glm::vec3(spec_.tip_colour), spec_.variation);
-    look.dry = glm::vec4(glm::vec3(spec_.dry_colour), spec_.translucency);
-    look.light = {1, 1, 0.06f, 18}; // the presets'
+    look.root = glm::vec3(spec_.root_colour);
+    look.dry_share = static_cast<float>(spec_.dry_share);
+    look.tip = glm::vec3(spec_.tip_colour);
+    look.variation = static_cast<float>(spec_.variation);
+    look.dry = glm::vec3(spec_.dry_colour);
+    look.translucency = static_cast<float>(spec_.translucency);
+    look.gloss = {1, 1, 0.06f, 18}; // the presets'
     look.outline = {2, 1, 1, 1};
     frame.canopy_m = static_cast<float>(spec_.blade_height_m.y);
     frame.blade_width_m = static_cast<float>(mean_blade_width_m());

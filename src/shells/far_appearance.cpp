@@ -134,7 +134,7 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
     const CanopyLight canopy(table, shared::bend_intensity(speed, wind.w), std::asin(glm::clamp(light.to_sun.y, -1.0f, 1.0f)) * 180 / shared::kPi);
     const float sun_heading = angle_of({light.to_sun.x, light.to_sun.z});
     const float lean_heading = speed > 0 ? angle_of(glm::vec2(wind)) : 0;
-    const glm::vec4 sun(glm::vec3(light.sun), 1);
+    const glm::vec4 sun(light.sun, 1);
     const glm::vec4 sky(shared::even_sky(light), 1);
     constexpr int kTexels = FarAppearance::kElevations * FarAppearance::kAzimuths;
     std::vector<glm::vec4> texels(2 * kTexels);

@@ -327,7 +327,7 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
         ++checked[static_cast<std::size_t>(block.level)];
         if (block.level == 0) {
             const glm::vec3 normal = world.surface.normal(at.x, at.y);
-            ASSERT_NEAR(sample.sun_cosine, glm::dot(normal, glm::vec3(world.frame.light.to_sun)),
+            ASSERT_NEAR(sample.sun_cosine, glm::dot(normal, world.frame.light.to_sun),
                         0.02);
             ASSERT_NEAR(sample.slope.x, -normal.x / normal.y, 0.03);
             ASSERT_NEAR(sample.slope.y, -normal.z / normal.y, 0.03);

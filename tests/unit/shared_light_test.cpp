@@ -66,8 +66,8 @@ TEST(Shading, GrassIsFiniteAndNonNegativeForExtremeInputs) {
     for (int n = 0; n < 20000; ++n) {
         const Light light = tests::daylight(direction());
         const vec3 tangent =
-            n % 3 == 0 ? vec3(light.to_sun) : direction(); // along the sun: no diffuse, no NaN
-        const vec3 to_eye = n % 5 == 0 ? vec3(light.to_sun) : direction();
+            n % 3 == 0 ? light.to_sun : direction(); // along the sun: no diffuse, no NaN
+        const vec3 to_eye = n % 5 == 0 ? light.to_sun : direction();
         const GrassPoint point{vec3(n % 7 == 0 ? 0.0f : 1.0f), tangent, 1.5f * signed_unit(random),
                                signed_unit(random)};
         EXPECT_TRUE(usable(shade_grass(look, light, point, to_eye))) << n;
@@ -81,7 +81,7 @@ TEST(Shading, GrassIsFiniteAndNonNegativeForExtremeInputs) {
 
 TEST(Shading, LookingStraightAgainstTheSunIsFinite) {
     const Light light = tests::daylight(glm::normalize(vec3(0.3f, 0.6f, 0.2f)));
-    const vec3 away = -vec3(light.to_sun); // the half vector vanishes
+    const vec3 away = -light.to_sun; // the half vector vanishes
     EXPECT_TRUE(usable(
         shade_grass(tests::grass_look(), light, {vec3(0.1f), vec3(0, 1, 0), 0.5f, 0.6f}, away)));
     EXPECT_TRUE(usable(sky_radiance(light, vec3(0, 1.0000001f, 0)))); // a unit vector, rounded
@@ -105,7 +105,7 @@ TEST(Sway, CalmChangesNothingAndGalesStayWithinReason) {
     const shared::GrassAppearance look = tests::grass_look();
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(0, 1);
-    const float grey = glm::dot(glm::mix(vec3(look.root), vec3(look.tip), 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
+    const float grey = glm::dot(glm::mix(look.root, look.tip, 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
     float lowest = 2, highest = 0, farthest = 0;
     for (int n = 0; n < 5000; ++n) {
         const auto direction = [&](float up) {
