@@ -5,12 +5,12 @@
 
 // World place (anchor-relative) to a true one. Posts of a level are whole numbers of half metres: exact in floats.
 vec2 true_place(vec2 xz) {
-    return xz + params.relief.zw;
+    return xz + params.anchor;
 }
 
 bool is_fine(vec2 xz) {
     vec2 from_eye = abs(xz - frame.eye.xz);
-    return max(from_eye.x, from_eye.y) > params.step.y;
+    return max(from_eye.x, from_eye.y) > params.detail_from_m;
 }
 
 // Spacing (m) of the place's level, without steps.

@@ -22,7 +22,7 @@ ClipPlace clip_place(vec2 xz) {
     vec2 from_eye = abs(xz - frame.eye.xz);
     float distance_m = max(from_eye.x, from_eye.y);
 #ifdef FINE_GROUND
-    distance_m = detail_reach(distance_m, params.step.y, params.step.z);
+    distance_m = detail_reach(distance_m, params.detail_from_m, params.zoom);
 #endif
     float cells = distance_m / frame.clip[0].spacing_m;
     int last = frame.clip_levels - 1;

@@ -83,7 +83,8 @@ struct FrameConstants {
     int unused_a, unused_b; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112);
+static_assert(sizeof(ClipLevel) == 16 && sizeof(FarBand) == 16);
+static_assert(sizeof(FrameConstants) == 128 + 8 * 16 + 16 * kMaxFarLevels + 16 + 16 * kMaxClipLevels + sizeof(GrassAppearance) * kMaxSpecies + sizeof(Light) + sizeof(WindField) + sizeof(TrackField) + 7 * 16);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

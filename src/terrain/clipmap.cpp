@@ -102,10 +102,12 @@ void Clipmap::fill(int level) {
     const scene::Heightfield& posts = source_->surface.elevation();
     const auto index = static_cast<std::size_t>(level);
     shared::SurfaceParams params{};
-    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {source_->surface.relief_m(), 0, 0, 0};
-    params.level = {windows_[index].first.x, windows_[index].first.y, level, 0};
-    params.step = {spacing(level), 0, 0, 0};
+    params.posts = {posts.width, posts.height};
+    params.post_m = glm::vec2(posts.spacing_m);
+    params.relief_m = static_cast<float>(source_->surface.relief_m());
+    params.first = windows_[index].first;
+    params.level = level;
+    params.spacing_m = static_cast<float>(spacing(level));
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
     source_->elevation.bind(TEX_ELEVATION);
@@ -130,9 +132,12 @@ void Clipmap::bind() const {
 void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
     const scene::Heightfield& posts = source_->surface.elevation();
     shared::SurfaceParams params{};
-    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {source_->surface.relief_m(), 0, anchor.x, anchor.y};
-    params.step = {0, detail.start_m, detail.zoom, 0};
+    params.posts = {posts.width, posts.height};
+    params.post_m = glm::vec2(posts.spacing_m);
+    params.relief_m = static_cast<float>(source_->surface.relief_m());
+    params.anchor = glm::vec2(anchor);
+    params.detail_from_m = detail.start_m;
+    params.zoom = detail.zoom;
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
     source_->elevation.bind(TEX_ELEVATION);
