@@ -91,9 +91,9 @@ OVER = {
     "tests/unit/tracks_seen_test.cpp:columns": 188,
     "tests/unit/tracks_test.cpp:columns": 183,
     "tests/unit/wind_sources_test.cpp": 477,
-    "texgen/bake.cpp:bake_set": 71,
-    "texgen/export_textures.cpp:write_variant()": 6,
-    "texgen/preview.cpp:top_view()": 6,
+    "texgen/bake/bake.cpp:bake_set": 71,
+    "texgen/export/export_textures.cpp:write_variant()": 6,
+    "texgen/bake/preview.cpp:top_view()": 6,
 }
 
 

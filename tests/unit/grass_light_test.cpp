@@ -18,9 +18,9 @@
 #include "shared/bend.h"
 #include "shared/shading.h"
 #include "shells/far_appearance.h"
-#include "texgen/canopy.h"
-#include "texgen/far_table.h"
-#include "texgen/parallel.h"
+#include "texgen/far/far_table.h"
+#include "texgen/patch/canopy.h"
+#include "texgen/work/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -9,8 +9,8 @@
 #include "shared/march_light.h"
 #include "shells/far_appearance.h"
 #include "shells/march_light.h"
-#include "texgen/march_fit.h"
-#include "texgen/march_slope.h"
+#include "texgen/far/march_fit.h"
+#include "texgen/far/march_slope.h"
 
 namespace sward::texgen {
 namespace {
