@@ -84,7 +84,8 @@ struct FrameConstants {
 };
 #ifdef __cplusplus
 static_assert(sizeof(ClipLevel) == 16 && sizeof(FarBand) == 16);
-static_assert(sizeof(FrameConstants) == 128 + 8 * 16 + 16 * kMaxFarLevels + 16 + 16 * kMaxClipLevels + sizeof(GrassAppearance) * kMaxSpecies + sizeof(Light) + sizeof(WindField) + sizeof(TrackField) + 7 * 16);
+static_assert(sizeof(FrameConstants) == 128 + 16 * (8 + kMaxFarLevels + 1 + kMaxClipLevels + 7) + sizeof(GrassAppearance) * kMaxSpecies +
+                                             sizeof(Light) + sizeof(WindField) + sizeof(TrackField));
 #endif
 
 SHARED_CONST int kBlockCells = 8;
@@ -149,7 +150,8 @@ struct FarInstance {
     int level;
 };
 #ifdef __cplusplus
-static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 32 && sizeof(BlockSample) == 48 && sizeof(FarInstance) == 40 && sizeof(FarShares) == 32 * (kShareSteps + 1));
+static_assert(sizeof(DrawCommand) == 16 && sizeof(TerrainBlock) == 16 && sizeof(BladeTile) == 32);
+static_assert(sizeof(BlockSample) == 48 && sizeof(FarInstance) == 40 && sizeof(FarShares) == 32 * (kShareSteps + 1));
 #endif
 
 SHARED_END

@@ -5,6 +5,7 @@
 #define SWARD_SHARED_SHADING_H
 #include "shared/grass_layout.h"
 #include "shared/hash.h"
+#include "shared/light.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -13,21 +14,6 @@ SHARED_BEGIN
 // texgen's far table.
 SHARED_CONST float kSunExtinction = 0.55f;
 SHARED_CONST float kSkyExtinction = 1.1f;
-
-// Sun and sky, linear. 64 bytes.
-struct Light {
-    vec3 to_sun;          // unit direction
-    float sun_extinction; // of sunlight by the whole canopy at zenith (optical depth)
-    vec3 sun;             // irradiance on a plane facing the sun / pi
-    float haze_per_m;
-    vec3 zenith;          // sky radiance overhead
-    float sky_extinction; // of skylight by the whole canopy
-    vec3 horizon;         // sky radiance there
-    float exposure;
-};
-#ifdef __cplusplus
-static_assert(sizeof(Light) == 64);
-#endif
 
 // Colour of a blade at place v along it (0 root .. 1 tip). rank and seed make it this blade's own, in every tier. `detail` 1: its
 // own; 0: the mean of all blades, for pixels that hold many of them. The mean over blades is the same at every detail.
