@@ -64,7 +64,7 @@ std::vector<WindSolid> SolidList::at(double time_s, glm::dvec2 origin) const {
         if (obstacle.kind == Kind::kMesh) {
             const Print& print = prints_[print_of_[i]];
             solid.corner = print.corner_m;
-            solid.bit_m = print.bit_m;
+            solid.bit_m = static_cast<float>(print.bit_m);
             solid.first_word = static_cast<int>(print.first_word);
             solid.bits = {print.width, print.height};
             solid.kind = shared::kSolidFootprint;
@@ -74,7 +74,7 @@ std::vector<WindSolid> SolidList::at(double time_s, glm::dvec2 origin) const {
             solid.kind = shared::kSolidBox;
         } else {
             // A cell's half diagonal: wherever it stands, a centre is inside.
-            solid.half_size = glm::vec2(std::max(obstacle.size.x, 0.7072 * cell_m_));
+            solid.half_size = glm::vec2(static_cast<float>(std::max(obstacle.size.x, 0.7072 * cell_m_)));
             solid.kind = shared::kSolidCircle;
         }
         solids.push_back(solid);
