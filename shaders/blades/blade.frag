@@ -16,8 +16,8 @@ void main() {
     if (!(dot(values, values) < 1e12)) {
         discard;
     }
-    if (frame.mode.x != kHandoverOff &&
-        !handover_near(own.x, own.z, frame.handover.xy, pixel_threshold(ivec2(gl_FragCoord.xy)), frame.mode.x)) {
+    if (frame.handover_mode != kHandoverOff &&
+        !handover_near(own.x, own.z, frame.handover_band, pixel_threshold(ivec2(gl_FragCoord.xy)), frame.handover_mode)) {
         discard;
     }
     // Where a thin blade covers samples but not the pixel's centre, values are extrapolated, far along the blade.

@@ -24,10 +24,10 @@ struct GrassSample {
 };
 
 void write_grass(GrassSample s) {
-    vec3 from_eye = s.world - frame.eye.xyz;
+    vec3 from_eye = s.world - frame.eye;
     float distance_m = length(from_eye);
     vec3 to_eye = -from_eye / distance_m;
-    vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.pose_band.w * frame.eye.w / distance_m)) * sward_tint(s.tint);
+    vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.blade_width_m * frame.focal_px / distance_m)) * sward_tint(s.tint);
     GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
     Light light = light_in_sway(frame.light, sway);
 #ifdef SURFACE

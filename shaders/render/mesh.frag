@@ -11,7 +11,7 @@ uniform vec4 bare;   // reflectance where the surface is too steep for grass; le
 
 void main() {
     vec3 face = normalize(cross(dFdx(world), dFdy(world)));
-    vec3 from_eye = world - frame.eye.xyz;
+    vec3 from_eye = world - frame.eye;
     face *= dot(face, from_eye) > 0.0 ? -1.0 : 1.0; // toward the eye, whichever way it is wound
     vec3 n = normalize(normal + 1e-6 * face);
     n = dot(n, face) < 0.0 ? -n : n;

@@ -87,7 +87,7 @@ void bench_wind(BenchReport& report) {
     published.set_state(u, v);
     StillInputs inputs;
     shared::WindField rim{};
-    rim.mean = {kMean_ms.x, kMean_ms.y, 0, 0};
+    rim.mean = kMean_ms;
     double time_s = 0;
     const auto own_step = [&] { fluid.step(inputs, time_s += settings.step_s, rim, shared::kWindCeiling_ms); };
     const auto published_step = [&] { published.step(); };

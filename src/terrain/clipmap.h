@@ -50,7 +50,7 @@ public:
     void bind() const;
     /// For programs with FINE_GROUND, after update(): the posts themselves. `anchor` in world metres.
     void bind_posts(glm::dvec2 anchor, Detail detail);
-    /// Fills clip, clip_layout.x and .w, and mask_place of the frame constants for an anchor (world metres).
+    /// Fills clip, clip_levels, mask_mode, mask_offset and mask_per_m of the frame constants for an anchor (world metres).
     void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
 
     [[nodiscard]] int levels() const { return static_cast<int>(windows_.size()); }

@@ -51,8 +51,8 @@ public:
     /// vec4 a cell at storage places: velocity at the centre, previous state xy, latest zw.
     [[nodiscard]] const gl::Buffer& cells() const { return published_; }
     /// The solved cells are [first, first + side) on both axes; the rest is rim.
-    [[nodiscard]] int inner_first() const { return constants_.inner.x; }
-    [[nodiscard]] int inner_side() const { return constants_.inner.y; }
+    [[nodiscard]] int inner_first() const { return constants_.inner_first; }
+    [[nodiscard]] int inner_side() const { return constants_.inner_cells; }
     void reload();
 
 private:

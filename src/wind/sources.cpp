@@ -39,9 +39,9 @@ bool same(const std::vector<WindSolid>& a, const std::vector<WindSolid>& b) {
 /// Speed of a solid's fastest point.
 double speed_of(const WindSolid& solid) {
     const glm::vec4 bounds = solid_bounds(solid);
-    const glm::vec2 place(solid.place);
+    const glm::vec2 place = solid.place;
     const glm::vec2 far = glm::max(glm::abs(glm::vec2(bounds) - place), glm::abs(glm::vec2(bounds.z, bounds.w) - place));
-    return glm::length(glm::vec2(solid.motion)) + std::abs(solid.motion.z) * glm::length(far);
+    return glm::length(solid.velocity) + std::abs(solid.turn_rad_s) * glm::length(far);
 }
 
 } // namespace
@@ -105,7 +105,7 @@ void Sources::apply_forces(const FluidGrid& grid) {
     const std::vector<WindForce> forces = forces_.at(grid.time_s, grid.origin_m, grid.cell_m);
     loudest_force_ms_ = 0;
     for (const WindForce& force : forces)
-        loudest_force_ms_ = std::max(loudest_force_ms_, static_cast<double>(force.push.x));
+        loudest_force_ms_ = std::max(loudest_force_ms_, static_cast<double>(force.speed_mps));
     set_inflow(grid, those(forces, brings_air));
     const std::vector<WindForce> pushes = those(forces, relaxes);
     force_list_.upload(pushes, bins_of(pushes, force_bounds, grid));

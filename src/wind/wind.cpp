@@ -66,26 +66,30 @@ void Wind::bind() const {
 
 shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag& ambient, const StateTag& window) const {
     shared::WindField field{};
-    field.mean = {mean_.x, mean_.y, 0, response_};
+    field.mean = glm::vec2(mean_);
+    field.response = static_cast<float>(response_);
     if (ambient_->strength_ms() > 0) {
         const double n = ambient.cells;
-        field.ambient = {n, ambient.share(time_s), 0, 0};
+        field.tile_cells = ambient.cells;
+        field.tile_share = static_cast<float>(ambient.share(time_s));
         const glm::dvec2 from = anchor - carried(time_s);
         const double gain = gust_gain(time_s);
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
             const double cell = ambient.cell_m * kLayerScale[layer], c = std::cos(kLayerTurn[layer]) / cell, s = std::sin(kLayerTurn[layer]) / cell;
             const glm::dvec2 place = glm::dvec2(c * from.x + s * from.y, -s * from.x + c * from.y) + shift_[layer];
             const glm::dvec2 wrapped = place - n * glm::floor(place / n);
-            field.layers[layer] = {wrapped.x, wrapped.y, c, s};
-            field.weights[layer] = static_cast<float>(kLayerWeight[layer] * gain);
-            field.weights[layer + 2] = static_cast<float>(cell);
+            field.layers[layer] = {glm::vec2(wrapped), {c, s}, static_cast<float>(kLayerWeight[layer] * gain), static_cast<float>(cell), 0, 0};
         }
     }
     if (window.cells > 0) {
         const glm::dvec2 corner = glm::dvec2(window.first_cell) * window.cell_m - anchor;
-        const glm::ivec2 n(window.cells), offset = ((window.first_cell % n) + n) % n;
-        field.window = {corner.x, corner.y, 1 / window.cell_m, window.cells};
-        field.blend = {offset.x, offset.y, window.share(time_s), kBlendShare * window.cells};
+        const glm::ivec2 n(window.cells);
+        field.window_corner_m = glm::vec2(corner);
+        field.window_per_m = static_cast<float>(1 / window.cell_m);
+        field.window_cells = window.cells;
+        field.window_first = ((window.first_cell % n) + n) % n;
+        field.window_share = static_cast<float>(window.share(time_s));
+        field.window_rim = static_cast<float>(kBlendShare * window.cells);
     }
     return field;
 }
@@ -101,18 +105,18 @@ glm::dvec2 Wind::at(double x, double z, double time_s) const {
     first.cells = AmbientTile::kCells;
     first.cell_m = AmbientTile::kCell_m;
     const shared::WindField field = compose({x, z}, time_s, ambient_landed ? ambient_back_->tag() : first, window_landed ? window_back_->tag() : StateTag{});
-    glm::dvec2 sum(field.mean.x, field.mean.y);
-    if (field.ambient.x > 0) {
+    glm::dvec2 sum(field.mean);
+    if (field.tile_cells > 0) {
         const std::span<const glm::vec4> cells = ambient_landed ? ambient_back_->cells() : std::span<const glm::vec4>(ambient_->initial());
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
-            const shared::WindTap tap = shared::wind_tile_tap(field.ambient.x, shared::wind_layer_place(field, layer, glm::vec2(0)));
-            sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.ambient.y)));
+            const shared::WindTap tap = shared::wind_tile_tap(static_cast<float>(field.tile_cells), shared::wind_layer_place(field, layer, glm::vec2(0)));
+            sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.tile_share)));
         }
     }
-    const glm::vec2 place = -glm::vec2(field.window.x, field.window.y) * field.window.z;
+    const glm::vec2 place = -field.window_corner_m * field.window_per_m;
     const float share = shared::wind_window_share(field, place);
     if (share > 0) {
-        sum += (cpu_tap(shared::wind_window_tap(field, place), window_back_->cells(), field.blend.z) - sum) * static_cast<double>(share);
+        sum += (cpu_tap(shared::wind_window_tap(field, place), window_back_->cells(), field.window_share) - sum) * static_cast<double>(share);
     }
     return sum;
 }

@@ -48,10 +48,11 @@ TEST_F(Tracks, StepsEqualTheTwin) {
         for (int block = 0; block < shared::kTrackBlocks; ++block) {
             const int x = block % kRow, z = block / kRow;
             shared::TrackBlock entry{};
-            entry.page = {0, 0, static_cast<int>(work.prints.size()), (x + 256 * z) * shared::kTrackBlock};
-            entry.own.x = block;
+            entry.prints = static_cast<int>(work.prints.size());
+            entry.first_cell = glm::ivec2(x, z) * shared::kTrackBlock;
+            entry.own = block;
             entry.beside = {x > 0 ? block - 1 : -1, x < kRow - 1 ? block + 1 : -1, z > 0 ? block - kRow : -1, z < kRow - 1 ? block + kRow : -1};
-            entry.ground = {0.2f, -0.1f, 0, 0};
+            entry.slope = {0.2f, -0.1f};
             work.moving.push_back(entry);
         }
         pass.step(rules, work);

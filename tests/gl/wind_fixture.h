@@ -116,7 +116,7 @@ inline double divergence_share(const wind::Fluid& fluid, const PlainInputs::Soli
 /// The ambient wind of a window without gusts.
 inline shared::WindField steady_wind(glm::vec2 mean) {
     shared::WindField field{};
-    field.mean = {mean.x, mean.y, 0, 0};
+    field.mean = mean;
     return field;
 }
 

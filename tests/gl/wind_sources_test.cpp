@@ -26,8 +26,13 @@ struct GridOnGpu {
         grid.time_s = 3;
         grid.step_s = 1.0 / 60;
         shared::WindGrid constants{};
-        constants.plan = {cells, grid.offset.x, grid.offset.y, 1};
-        constants.size = {cell_m, 1 / cell_m, grid.step_s, grid.step_s / cell_m};
+        constants.cells = cells;
+        constants.stored = grid.offset;
+        constants.has_solids = 1;
+        constants.cell_m = static_cast<float>(cell_m);
+        constants.per_m = static_cast<float>(1 / cell_m);
+        constants.step_s = static_cast<float>(grid.step_s);
+        constants.step_per_m = static_cast<float>(grid.step_s / cell_m);
         block = gl::Buffer(sizeof(constants));
         block.upload(&constants, sizeof(constants));
         block.bind_uniform(BIND_WIND_GRID);

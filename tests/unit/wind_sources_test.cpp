@@ -131,18 +131,18 @@ TEST(Forces, ARotorBlowsOutwardsInARing) {
     const WindForce force = only_force(list_of({}, {rotor}));
     // Momentum theory: v = sqrt(m g / (2 rho pi R^2)) = 10.59 m/s, twice that far below.
     EXPECT_NEAR(rotor_outwash(rotor, 0).speed_ms, 21.18, 0.05);
-    EXPECT_NEAR(force.push.x, 21.1, 0.1);
-    const float ring = force.extent.x;
+    EXPECT_NEAR(force.speed_mps, 21.1, 0.1);
+    const float ring = force.radius_m;
     EXPECT_NEAR(ring, 5.3, 0.1);
     const auto radial = [&](double r) { return shared::wind_force_at(force, vec2(r * 0.6, r * 0.8)).outflow; };
-    EXPECT_NEAR(glm::length(radial(ring)), force.push.x, 0.01);
+    EXPECT_NEAR(glm::length(radial(ring)), force.speed_mps, 0.01);
     EXPECT_NEAR(radial(ring).x / radial(ring).y, 0.75, 1e-4);
     EXPECT_LT(glm::length(radial(0.1)), 1) << "calm below the hub";
     EXPECT_LT(glm::length(radial(0.8 * ring)), glm::length(radial(ring)));
-    EXPECT_NEAR(glm::length(radial(2.5 * ring)) * 2.5, force.push.x * 1.398, 0.05) << "1 / r";
-    EXPECT_EQ(glm::length(radial(force.extent.y * 1.01)), 0);
+    EXPECT_NEAR(glm::length(radial(2.5 * ring)) * 2.5, force.speed_mps * 1.398, 0.05) << "1 / r";
+    EXPECT_EQ(glm::length(radial(force.reach_m * 1.01)), 0);
     EXPECT_GT(divergence(force, {1, 0}), 1) << "air comes down inside";
-    EXPECT_LT(divergence(force, {0.75 * force.extent.y, 0}), 0) << "and leaves far out";
+    EXPECT_LT(divergence(force, {0.75 * force.reach_m, 0}), 0) << "and leaves far out";
     EXPECT_FALSE(relaxes(force)) << "it adds to the wind, it does not brake it";
     EXPECT_TRUE(brings_air(force));
 }
@@ -160,7 +160,7 @@ TEST(Forces, HeightWeakensAndWidensTheOutwash) {
     paths["p"].agl = false;
     Source carried = rotor;
     carried.where.path = "p";
-    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).push.x, rotor_outwash(rotor, 3).speed_ms, 1e-4);
+    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps, rotor_outwash(rotor, 3).speed_ms, 1e-4);
 }
 
 TEST(Forces, ACycloneTurnsAndDrawsIn) {
@@ -270,8 +270,8 @@ TEST(Forces, NothingActsOutsideItsBounds) {
             outside += acts && !in ? 1 : 0;
             acting += acts ? 1 : 0;
         }
-        EXPECT_EQ(outside, 0) << force.push.z;
-        EXPECT_GT(acting, 20) << force.push.z;
+        EXPECT_EQ(outside, 0) << force.kind;
+        EXPECT_GT(acting, 20) << force.kind;
     }
 }
 
@@ -412,14 +412,14 @@ TEST_F(Solids, MoveAndTurnWithTheirPath) {
     // Yaw 45 at 45 m: ahead is north-east. 10 degrees a second turn it.
     EXPECT_NEAR(later[0].place.x, 45 + 5 * std::sqrt(0.5), 0.01);
     EXPECT_NEAR(later[0].place.y, -5 * std::sqrt(0.5), 0.01);
-    EXPECT_NEAR(later[0].motion.z, 10 * std::numbers::pi / 180, 1e-3);
-    EXPECT_NEAR(later[0].motion.x, 10 + 5 * std::sqrt(0.5) * 10 * std::numbers::pi / 180, 0.01);
+    EXPECT_NEAR(later[0].turn_rad_s, 10 * std::numbers::pi / 180, 1e-3);
+    EXPECT_NEAR(later[0].velocity.x, 10 + 5 * std::sqrt(0.5) * 10 * std::numbers::pi / 180, 0.01);
     // Every point moves as the body does: place a second later by the velocity field.
     const double dt = 1e-3;
     const auto next = list.at(4.5 + dt, {0, 0});
     const vec2 own(1.5f, -0.5f);
     const auto world = [&](const shared::WindSolid& s) {
-        return vec2(s.place.x + s.place.z * own.x - s.place.w * own.y, s.place.y + s.place.w * own.x + s.place.z * own.y);
+        return vec2(s.place.x + s.heading.x * own.x - s.heading.y * own.y, s.place.y + s.heading.y * own.x + s.heading.x * own.y);
     };
     EXPECT_NEAR(glm::distance(shared::solid_frame(later[0], world(later[0])), own), 0, 1e-5);
     const vec2 moved = (world(next[0]) - world(later[0])) / static_cast<float>(dt);

@@ -56,7 +56,7 @@ public:
 
 private:
     std::vector<shared::GrassAppearance> looks_;
-    shared::Light light_{shared::vec4(shared::vec3(kSun), 0.55f), {3.4f, 3.2f, 2.8f, 0}, {0.2f, 0.4f, 0.8f, 1.1f}, {0.8f, 0.95f, 1.1f, 1}};
+    shared::Light light_{shared::vec3(kSun), 0.55f, {3.4f, 3.2f, 2.8f}, 0, {0.2f, 0.4f, 0.8f}, 1.1f, {0.8f, 0.95f, 1.1f}, 1};
 };
 
 /// One image of an array, both planes.

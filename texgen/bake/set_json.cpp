@@ -20,30 +20,30 @@ double decimal(float value) {
     return out;
 }
 
-ordered_json rgb(const shared::vec4& c) {
+ordered_json rgb(const shared::vec3& c) {
     return {decimal(c.x), decimal(c.y), decimal(c.z)};
 }
 
 ordered_json floor_of(const grass::Floor& floor) {
-    return {{"cover", decimal(floor.cover)}, {"moss", rgb(glm::vec4(floor.moss, 0))}, {"litter", rgb(glm::vec4(floor.litter, 0))}};
+    return {{"cover", decimal(floor.cover)}, {"moss", rgb(floor.moss)}, {"litter", rgb(floor.litter)}};
 }
 
 ordered_json look(const shared::GrassAppearance& a) {
     return {{"root", rgb(a.root)},
             {"tip", rgb(a.tip)},
             {"dry", rgb(a.dry)},
-            {"dry_share", decimal(a.root.w)},
-            {"variation", decimal(a.tip.w)},
-            {"translucency", decimal(a.dry.w)},
-            {"kd", decimal(a.light.x)},
-            {"pd", decimal(a.light.y)},
-            {"ks", decimal(a.light.z)},
-            {"ps", decimal(a.light.w)},
+            {"dry_share", decimal(a.dry_share)},
+            {"variation", decimal(a.variation)},
+            {"translucency", decimal(a.translucency)},
+            {"kd", decimal(a.gloss.diffuse)},
+            {"pd", decimal(a.gloss.diffuse_power)},
+            {"ks", decimal(a.gloss.specular)},
+            {"ps", decimal(a.gloss.specular_power)},
             {"head", rgb(a.head)},
-            {"taper", decimal(a.outline.x)},
-            {"stalk", decimal(a.outline.y)},
-            {"head_from", decimal(a.outline.z)},
-            {"fullness", decimal(a.outline.w)}};
+            {"taper", decimal(a.outline.taper)},
+            {"stalk", decimal(a.outline.stalk)},
+            {"head_from", decimal(a.outline.head_from)},
+            {"fullness", decimal(a.outline.fullness)}};
 }
 
 ordered_json decimals(const std::vector<float>& values) {
@@ -57,6 +57,10 @@ ordered_json numbers(const shared::vec4& v) {
     return {decimal(v.x), decimal(v.y), decimal(v.z), decimal(v.w)};
 }
 
+ordered_json gloss_of(const shared::GrassGloss& gloss) {
+    return numbers({gloss.diffuse, gloss.diffuse_power, gloss.specular, gloss.specular_power});
+}
+
 ordered_json march_json(const grass::FarMedium& march) {
     ordered_json out = {{"columns", grass::kColumnsFile}, {"column_fibres", grass::kColumnFibresFile}, {"correction", grass::kCorrectionFile}};
     for (int k = 0; k < shared::kMarchSets; ++k) {
@@ -68,13 +72,13 @@ ordered_json march_json(const grass::FarMedium& march) {
     for (const shared::vec4& layer : march.medium.layers)
         out["layers"].push_back({decimal(layer.x), decimal(layer.y)});
     for (int i = 0; i < shared::kMarchLayers; ++i) {
-        out["level_tint"].push_back(rgb(march.medium.level_tint[i]));
-        out["steep_tint"].push_back(rgb(march.medium.steep_tint[i]));
+        out["level_tint"].push_back(rgb(shared::vec3(march.medium.level_tint[i])));
+        out["steep_tint"].push_back(rgb(shared::vec3(march.medium.steep_tint[i])));
     }
     for (const shared::vec4& heights : march.medium.slopes)
         out["slopes"].push_back(numbers(heights));
-    out["look"] = numbers(march.medium.look);
-    out["translucency"] = decimal(march.medium.size.z);
+    out["look"] = gloss_of(march.medium.gloss);
+    out["translucency"] = decimal(march.medium.translucency);
     return out;
 }
 

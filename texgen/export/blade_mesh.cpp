@@ -28,7 +28,7 @@ std::vector<Station> stations_of(const shared::GrassAppearance& look, int segmen
         const float t = static_cast<float>(i) / static_cast<float>(segments);
         const float v = shared::blade_station(t, look.outline);
         all.push_back({v, shared::blade_width_at(v, look.outline), v});
-        if (look.outline.z < 1 && 2 * i == segments)
+        if (look.outline.head_from < 1 && 2 * i == segments)
             all.push_back({v, all.back().width, 1, false});
     }
     all.push_back({1, 0, 1});
@@ -117,7 +117,7 @@ private:
 } // namespace
 
 BladeMesh blade_mesh(std::span<const BladeRecord> blades, int species, const shared::GrassAppearance& look, const MeshLod& lod) {
-    const auto stations = stations_of(look, look.outline.z < 1 ? lod.head_segments : lod.segments);
+    const auto stations = stations_of(look, look.outline.head_from < 1 ? lod.head_segments : lod.segments);
     const auto area = [](const BladeRecord& b) { return static_cast<double>(b.v1.w) * b.shape.y; };
     std::vector<const BladeRecord*> kept;
     double all = 0, standing = 0;

@@ -49,7 +49,9 @@ ordered_json material(const grass::Species& species) {
     return {{"name", species.name},
             {"doubleSided", true},
             {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 0.8}}},
-            {"extras", {{"kd", look.light.x}, {"pd", look.light.y}, {"ks", look.light.z}, {"ps", look.light.w}, {"translucency", look.dry.w}}}};
+            {"extras",
+             {{"kd", look.gloss.diffuse}, {"pd", look.gloss.diffuse_power}, {"ks", look.gloss.specular}, {"ps", look.gloss.specular_power},
+              {"translucency", look.translucency}}}};
 }
 
 /// Adds a mesh and a node for it; returns the node.

@@ -34,9 +34,10 @@ std::vector<shared::Light> suns() {
     for (const float elevation : kSunElevations)
         for (int a = 0; a < kSunAzimuths; ++a) {
             shared::Light light{};
-            light.to_sun = {glm::vec3(direction(elevation, 360.0 * a / kSunAzimuths)), shared::kSunExtinction};
-            light.sun = {1, 1, 1, 0};
-            light.zenith.w = shared::kSkyExtinction;
+            light.to_sun = glm::vec3(direction(elevation, 360.0 * a / kSunAzimuths));
+            light.sun_extinction = shared::kSunExtinction;
+            light.sun = glm::vec3(1);
+            light.sky_extinction = shared::kSkyExtinction;
             lights.push_back(light);
         }
     return lights;
@@ -45,9 +46,10 @@ std::vector<shared::Light> suns() {
 /// Sky alone; where the sun stands does not matter to it.
 shared::Light even_sky() {
     shared::Light light{};
-    light.to_sun = {0, 1, 0, shared::kSunExtinction};
-    light.zenith = {1, 1, 1, shared::kSkyExtinction};
-    light.horizon = {1, 1, 1, 0};
+    light.to_sun = {0, 1, 0};
+    light.sun_extinction = shared::kSunExtinction;
+    light.zenith = light.horizon = glm::vec3(1);
+    light.sky_extinction = shared::kSkyExtinction;
     return light;
 }
 
@@ -77,7 +79,7 @@ public:
             const glm::vec3 turn = seen_from(lean_turn(view.lean), direction(0, mirrored ? azimuth : -azimuth), mirrored);
             for (const shared::Light& light : lights)
                 lights_.push_back(shared::light_in_sway(
-                    light, shared::canopy_sway(looks.front(), turn, glm::vec3(light.to_sun), to_eye)));
+                    light, shared::canopy_sway(looks.front(), turn, light.to_sun, to_eye)));
         }
     }
     [[nodiscard]] const shared::Light& at(bool mirrored, std::size_t sun) const {

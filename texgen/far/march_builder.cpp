@@ -207,15 +207,19 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
         data.medium.steep_tint[i] = tint_of(tints_[i].steep, tints_[i].columns);
     }
     double whole = 0, translucency = 0;
-    glm::dvec4 look(0);
+    glm::dvec4 gloss(0);
     for (std::size_t s = 0; s < species_.size() && s < looks.size(); ++s) {
         whole += species_[s];
-        look += species_[s] * glm::dvec4(looks[s].light);
-        translucency += species_[s] * static_cast<double>(looks[s].dry.w);
+        const shared::GrassGloss& own = looks[s].gloss;
+        gloss += species_[s] * glm::dvec4(own.diffuse, own.diffuse_power, own.specular, own.specular_power);
+        translucency += species_[s] * static_cast<double>(looks[s].translucency);
     }
-    data.medium.look = glm::vec4(look / std::max(whole, 1e-12));
-    data.medium.size = {static_cast<float>(side_), static_cast<float>(canopy_), static_cast<float>(translucency / std::max(whole, 1e-12)),
-                        static_cast<float>(variants_)};
+    const glm::vec4 mean(gloss / std::max(whole, 1e-12));
+    data.medium.gloss = {mean.x, mean.y, mean.z, mean.w};
+    data.medium.side_m = static_cast<float>(side_);
+    data.medium.canopy_m = static_cast<float>(canopy_);
+    data.medium.translucency = static_cast<float>(translucency / std::max(whole, 1e-12));
+    data.medium.variants = static_cast<int>(variants_);
     shared::fill_views(data.medium);
     return data;
 }

@@ -123,10 +123,11 @@ shared::Light sun_from(int side) {
     constexpr float kElevation = 40 * shared::kPi / 180, kSky = 0.2f;
     const float azimuth = 2 * shared::kPi * (static_cast<float>(side) + 0.5f) / kSuns;
     shared::Light light{};
-    light.to_sun = {std::cos(kElevation) * std::cos(azimuth), std::sin(kElevation), std::cos(kElevation) * std::sin(azimuth), shared::kSunExtinction};
-    light.sun = {1, 1, 1, 0};
-    light.zenith = {kSky, kSky, kSky, shared::kSkyExtinction};
-    light.horizon = {kSky, kSky, kSky, 0};
+    light.to_sun = {std::cos(kElevation) * std::cos(azimuth), std::sin(kElevation), std::cos(kElevation) * std::sin(azimuth)};
+    light.sun_extinction = shared::kSunExtinction;
+    light.sun = glm::vec3(1);
+    light.zenith = light.horizon = glm::vec3(kSky);
+    light.sky_extinction = shared::kSkyExtinction;
     return light;
 }
 
@@ -158,9 +159,9 @@ public:
     MarchMean(const Textures& textures, const Case& which, int rays)
         : data_(textures.data), texels_(textures.kinds[static_cast<std::size_t>(which.kind)]), case_(which), rays_(rays) {
         const MarchData& data = textures.data;
-        const double texel = data.medium.size.x / static_cast<double>(shared::kMarchTexels);
+        const double texel = data.medium.side_m / static_cast<double>(shared::kMarchTexels);
         const double softness = shared::kSlabSoftness;
-        footprint_ = footprint_of(which, data.medium.size.x,
+        footprint_ = footprint_of(which, data.medium.side_m,
                                   texel * (which.kind == kMarchColumns ? std::exp2(which.mip) : std::sqrt(std::max(std::exp2(2 * which.mip) - softness * softness, 0.02))));
     }
     [[nodiscard]] Marched at(double factor, bool light_too = false) const {
@@ -181,13 +182,13 @@ private:
         const auto share = [&](std::size_t n) { return std::fmod(0.5 + kSteps[n] * (number + 1), 1.0); };
         const double elevation = std::min(case_.elevation_deg, 89.9) * std::numbers::pi / 180, azimuth = share(2) * 2 * std::numbers::pi;
         const shared::MarchMedium& medium = data_.medium;
-        variant = std::floor(static_cast<float>(share(3)) * medium.size.w);
+        variant = std::floor(static_cast<float>(share(3)) * static_cast<float>(medium.variants));
         const glm::vec3 way(std::cos(elevation) * std::cos(azimuth), -std::sin(elevation), std::cos(elevation) * std::sin(azimuth));
         shared::MarchPath path;
-        path.from = {static_cast<float>(share(0)) * medium.size.x, medium.size.y, static_cast<float>(share(1)) * medium.size.x};
+        path.from = {static_cast<float>(share(0)) * medium.side_m, medium.canopy_m, static_cast<float>(share(1)) * medium.side_m};
         path.way = way;
-        path.height = {medium.size.y, way.y, 0, -medium.size.y / way.y};
-        path.bend = {1, 0, 0, medium.size.y};
+        path.height = {medium.canopy_m, way.y, 0, -medium.canopy_m / way.y};
+        path.bend = {1, 0, 0, medium.canopy_m};
         return path;
     }
 
@@ -209,11 +210,11 @@ private:
         Marched out;
         for (int n = 0; n < shared::kMarchSteps && shared::march_inside(path, at) && through > shared::kMarchEnd; ++n) {
             const shared::MarchStep step = shared::march_step(medium, path, plan, at, {static_cast<float>(n), scale});
-            const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.size.x, step.rest.z / medium.size.x, variant});
+            const glm::vec3 place = shared::march_texel(medium, plan, step, {step.rest.x / medium.side_m, step.rest.z / medium.side_m, variant});
             const Texel texel = texels_.at(place, step.mip - shared::march_base(plan.kind));
             const double lost = through * (1 - std::exp(-shared::march_beside(scale * step.depth * texel.density)));
             const float tint = plan.kind == kMarchColumns ? glm::dot(shared::march_tint(medium, step.layer, steepness), kLuminance) : 1;
-            const float height = step.rest.y / medium.size.y, whole = std::max(texel.density, 1e-4f);
+            const float height = step.rest.y / medium.canopy_m, whole = std::max(texel.density, 1e-4f);
             out.found += lost * found_at(height, 1);
             if (light_too)
                 shared::march_gather(sums, light, light.to_sun.y,
@@ -235,10 +236,10 @@ private:
 };
 
 double true_mean(const MarchData& data, const HeightCaster& truth, const Case& which, int rays) {
-    const double canopy = data.medium.size.y;
+    const double canopy = data.medium.canopy_m;
     double sum = 0;
     for (int i = 0; i < rays; ++i) {
-        const SampleRay ray = sample_ray(i, std::min(which.elevation_deg, 89.9), data.medium.size.x, canopy);
+        const SampleRay ray = sample_ray(i, std::min(which.elevation_deg, 89.9), data.medium.side_m, canopy);
         const std::optional<double> height = truth(ray, static_cast<std::uint64_t>(i), which.density);
         sum += height ? found_at(*height, canopy) : 0;
     }

@@ -72,8 +72,8 @@ glm::dvec2 mean_of(const std::vector<SlopedBlades>& variants, const Patch& patch
 void fit_slopes(const Patch& patch, int rays, int threads, shared::MarchMedium& medium) {
     std::vector<SlopedBlades> level, sloped;
     for (int v = 0; v < patch.variants(); ++v) {
-        level.emplace_back(patch, v, medium.size.y, 0);
-        sloped.emplace_back(patch, v, medium.size.y, kSlope);
+        level.emplace_back(patch, v, medium.canopy_m, 0);
+        sloped.emplace_back(patch, v, medium.canopy_m, kSlope);
     }
     const int count = std::min(rays, kSlopeRays);
     parallel_for(shared::kMarchElevations, resolve_threads(threads), [&](std::size_t row, int) {

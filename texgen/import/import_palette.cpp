@@ -116,9 +116,10 @@ shared::GrassAppearance look_of(const Line& line, double error) {
     shared::GrassAppearance look = appearance(Species{});
     // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard deviation is 0.7 / sqrt 12.
     const double variation = std::clamp(std::sqrt(error) / (0.7 / std::sqrt(12.0)), 0.0, 1.0);
-    look.root = shared::vec4(glm::vec3(line.root), 0); // no share of dry blades: the voxels' own mean holds them
-    look.tip = shared::vec4(glm::vec3(line.tip), static_cast<float>(variation));
-    look.dry = shared::vec4(glm::vec3(line.tip), look.dry.w);
+    look.root = glm::vec3(line.root);
+    look.dry_share = 0; // the voxels' own mean holds dry blades
+    look.tip = look.dry = glm::vec3(line.tip);
+    look.variation = static_cast<float>(variation);
     return look;
 }
 

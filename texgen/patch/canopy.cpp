@@ -8,7 +8,7 @@ namespace sward::texgen {
 
 Outline outline_of(const shared::BladeRecord& blade,
                    std::span<const shared::GrassAppearance> species) {
-    const shared::vec4 outline = species[species_of(blade)].outline;
+    const shared::BladeOutline outline = species[species_of(blade)].outline;
     Outline o;
     const glm::dvec3 root(blade.root.x, 0.0, blade.root.y);
     const glm::dvec3 v1(blade.v1);

@@ -140,17 +140,20 @@ int height_coding(const Preset& preset) {
 }
 
 shared::GrassAppearance appearance(const Species& species) {
-    const auto pack = [](const Colour& c, double a) {
-        return shared::vec4(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                            static_cast<float>(c[2]), static_cast<float>(a));
+    const auto rgb = [](const Colour& c) {
+        return shared::vec3(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
     };
-    shared::GrassAppearance look;
-    look.root = pack(species.root, species.dry_share);
-    look.tip = pack(species.tip, species.variation);
-    look.dry = pack(species.dry, species.translucency);
-    look.light = pack({species.kd, species.pd, species.ks}, species.ps);
-    look.head = pack(species.head, 0);
-    look.outline = pack({species.taper, species.stalk, species.head_from}, species.fullness);
+    shared::GrassAppearance look{};
+    look.root = rgb(species.root);
+    look.dry_share = static_cast<float>(species.dry_share);
+    look.tip = rgb(species.tip);
+    look.variation = static_cast<float>(species.variation);
+    look.dry = rgb(species.dry);
+    look.translucency = static_cast<float>(species.translucency);
+    look.gloss = {static_cast<float>(species.kd), static_cast<float>(species.pd), static_cast<float>(species.ks), static_cast<float>(species.ps)};
+    look.head = rgb(species.head);
+    look.outline = {static_cast<float>(species.taper), static_cast<float>(species.stalk), static_cast<float>(species.head_from),
+                    static_cast<float>(species.fullness)};
     return look;
 }
 

@@ -53,7 +53,7 @@ public:
     [[nodiscard]] glm::dvec3 across() const { return across_; }
 
 private:
-    shared::vec4 outline_;
+    shared::BladeOutline outline_;
     glm::dvec3 root_, v1_, v2_, across_;
     double half_;
 };
