@@ -19,7 +19,7 @@ set = "{set}"
 azimuth_deg = 135
 elevation_deg = 35
 [wind]
-speed_ms = 0
+speed_mps = 0
 gust = 0
 [camera.top]
 position = [0, 10, 0]

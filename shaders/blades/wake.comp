@@ -33,7 +33,7 @@ void main() {
     } else if (state.status == kPatchAsleep && !met) {
         PhysicsRecord first = physics_laid(page, records[page.first + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
         vec3 root = physics_root(page, first, false);
-        up = distance(physics_wind(root.xz), state.wind) > kStillWind_ms;
+        up = distance(physics_wind(root.xz), state.wind) > kStillWind_mps;
     }
     if (up) {
         uint list = state.status == kPatchNew ? kListNew : met || needs_height() ? kListColliding : kListFree;

@@ -49,7 +49,7 @@ static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16 && sizeof(Awak
 // A patch falls asleep when no blade remembers a push and none moves by more than this part of its length in a step; it then is
 // within a thirtieth of a percent of its balance.
 SHARED_CONST float kStillMove = 2e-6f;
-SHARED_CONST float kStillWind_ms = 0.002f; // change of wind that wakes it
+SHARED_CONST float kStillWind_mps = 0.002f; // change of wind that wakes it
 
 // Weight of the simulated pose against the grouped one at a distance from the eye; band: start and end of the fade (m).
 SHARED_FN float simulated_share(float distance_m, vec2 band) {

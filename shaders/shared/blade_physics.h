@@ -131,9 +131,9 @@ SHARED_FN vec3 settle_blade(BladeBody body, SHARED_INOUT(vec3) v2) {
 
 // Drag (m/s) on an upright blade that J4 holds in balance where W6 and B3 put its tip: at the angle a from upright, J5.3 takes
 // what acts along the blade, so s stem tan a = drag * fd * fr with fd = 1 - sin a, fr = rise / stem.
-SHARED_FN float blade_drag(BladeBody body, float speed_ms) {
+SHARED_FN float blade_drag(BladeBody body, float speed_mps) {
     float stem = body.stem_canopy.x;
-    vec2 tip = bend_arc(stem, max(body.stem_canopy.y, stem), bend_intensity(speed_ms, body.response));
+    vec2 tip = bend_arc(stem, max(body.stem_canopy.y, stem), bend_intensity(speed_mps, body.response));
     float lean = tip.y / tip.x;
     float along = lean / sqrt(1.0f + lean * lean); // sin a
     return body.recovery * stem * stem * lean / ((1.0f - along) * tip.x);

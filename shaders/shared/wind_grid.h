@@ -7,7 +7,7 @@
 SHARED_BEGIN
 
 SHARED_CONST int kMaxWindLevels = 10;
-SHARED_CONST float kWindCeiling_ms = 200.0f; // no air is faster, whatever pushes it
+SHARED_CONST float kWindCeiling_mps = 200.0f; // no air is faster, whatever pushes it
 
 // Places in the window are metres from its north-west corner (a float holds them; the corner itself is a double).
 // A level of the multigrid. 32 bytes.

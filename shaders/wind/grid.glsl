@@ -51,5 +51,5 @@ vec2 north_face(ivec2 logical) { // where v(logical) lies
 
 // What no cell may exceed; what is no number is calm.
 float sane(float speed) {
-    return abs(speed) <= kWindCeiling_ms ? speed : speed > 0.0 ? kWindCeiling_ms : speed < 0.0 ? -kWindCeiling_ms : 0.0;
+    return abs(speed) <= kWindCeiling_mps ? speed : speed > 0.0 ? kWindCeiling_mps : speed < 0.0 ? -kWindCeiling_mps : 0.0;
 }

@@ -108,7 +108,7 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
     const glm::dvec3 way = pose_.pose.position - before_;
     before_ = pose_.pose.position;
     if (dt > 0)
-        speed_ms_ += (glm::length(way) / dt - speed_ms_) * std::min(1.0, dt / kSpeedFade_s);
+        speed_mps_ += (glm::length(way) / dt - speed_mps_) * std::min(1.0, dt / kSpeedFade_s);
 }
 
 /// A flight that is kept, or shown again, is simulated by its steps, however many fall into a picture: its pictures are then the same whatever their
@@ -146,7 +146,7 @@ void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
 
 std::string Flight::line() const {
     CockpitFacts facts;
-    facts.speed_ms = speed_ms_;
+    facts.speed_mps = speed_mps_;
     facts.above_ground_m = pose_.pose.position.y - ground();
     facts.heading_deg = pose_.pose.yaw_deg;
     facts.p50_ms = times_.percentile(0.5);

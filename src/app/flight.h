@@ -105,7 +105,7 @@ private:
     std::optional<scene::Scene> next_;
     std::string word_;
     bool flow_ = false, line_ = true;
-    double speed_ms_ = 0, frame_ms_ = 0;
+    double speed_mps_ = 0, frame_ms_ = 0;
     glm::dvec3 before_{0};    ///< where the eye was in the picture before
     Clock::time_point last_, drawing_, counted_{}, said_;
 };

@@ -20,7 +20,7 @@ public:
         pose.roll_deg = 0;
     }
     [[nodiscard]] bool in_real_time() const override { return true; }
-    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_ms()); }
+    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_mps()); }
 
 private:
     FlyControls controls_;

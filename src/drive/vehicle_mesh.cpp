@@ -29,7 +29,7 @@ void add_pillar(scene::Mesh& mesh, const dvec3& foot, const dvec3& head, double 
     const dvec3 corners[] = {-x - z, x - z, x + z, -x + z};
     for (int i = 0; i < 4; ++i) {
         const dvec3 &a = corners[i], &b = corners[(i + 1) % 4];
-        add_outward(mesh, (foot + head) / 2.0, foot + b, foot + a, head + a, head + b);
+        add_outward(mesh, (foot + head) / 2.0, {foot + b, foot + a, head + a, head + b});
     }
 }
 
@@ -81,16 +81,16 @@ scene::Mesh body_mesh(const VehicleSpec& spec) {
         const auto under = [&](double z, double t) { return half < spec.size_m.x / 2 ? spec.clearance_m : std::min(t, underside(spec, z + z0)); };
         const double ua = under(za, ta), ub = under(zb, tb);
         const auto at = [&](double side, double y, double z) { return dvec3(side * half, y, z + z0); };
-        add_quad(mesh, at(-1, ta, za), at(-1, tb, zb), at(1, tb, zb), at(1, ta, za));
-        add_quad(mesh, at(-1, ua, za), at(1, ua, za), at(1, ub, zb), at(-1, ub, zb));
-        add_quad(mesh, at(-1, ua, za), at(-1, ub, zb), at(-1, tb, zb), at(-1, ta, za));
-        add_quad(mesh, at(1, ua, za), at(1, ta, za), at(1, tb, zb), at(1, ub, zb));
+        add_quad(mesh, {at(-1, ta, za), at(-1, tb, zb), at(1, tb, zb), at(1, ta, za)});
+        add_quad(mesh, {at(-1, ua, za), at(1, ua, za), at(1, ub, zb), at(-1, ub, zb)});
+        add_quad(mesh, {at(-1, ua, za), at(-1, ub, zb), at(-1, tb, zb), at(-1, ta, za)});
+        add_quad(mesh, {at(1, ua, za), at(1, ta, za), at(1, tb, zb), at(1, ub, zb)});
         // Front and back of a station show at the ends, and where the next one is narrower.
         const auto other = [&](int step) { return half_width(spec, (za + zb) / 2 + step * (zb - za) + z0, std::max(ta, tb)); };
         if (i == 0 || other(-1) < half)
-            add_quad(mesh, at(-1, ua, za), at(-1, ta, za), at(1, ta, za), at(1, ua, za));
+            add_quad(mesh, {at(-1, ua, za), at(-1, ta, za), at(1, ta, za), at(1, ua, za)});
         if (i == kStations - 1 || other(1) < half)
-            add_quad(mesh, at(-1, ub, zb), at(1, ub, zb), at(1, tb, zb), at(-1, tb, zb));
+            add_quad(mesh, {at(-1, ub, zb), at(1, ub, zb), at(1, tb, zb), at(-1, tb, zb)});
     }
     return mesh;
 }
@@ -102,17 +102,17 @@ scene::Mesh roof_mesh(const VehicleSpec& spec) {
     const dvec3 middle(0, roof - thick / 2, (front + rear) / 2);
     scene::Mesh mesh;
     for (const double y : {roof - thick, roof})
-        add_outward(mesh, middle, {-inner, y, front}, {-inner, y, rear}, {inner, y, rear}, {inner, y, front});
+        add_outward(mesh, middle, {{-inner, y, front}, {-inner, y, rear}, {inner, y, rear}, {inner, y, front}});
     for (const double side : {-1.0, 1.0}) {
         const double x = side * inner;
-        add_outward(mesh, middle, {x, roof - thick, front}, {x, roof - thick, rear}, {x, roof, rear}, {x, roof, front});
+        add_outward(mesh, middle, {{x, roof - thick, front}, {x, roof - thick, rear}, {x, roof, rear}, {x, roof, front}});
         const double foot = side * (half - bar / 2), head = side * (inner - bar / 2), under = roof - thick;
         add_pillar(mesh, {foot, belt, -0.18 * l + z0}, {head, under, front}, bar);
         add_pillar(mesh, {foot, belt, 0.12 * l + z0}, {head, under, 0.12 * l + z0}, bar);
         add_pillar(mesh, {foot, belt, 0.42 * l + z0}, {head, under, rear}, bar);
     }
     for (const double z : {front, rear})
-        add_outward(mesh, middle, {-inner, roof - thick, z}, {inner, roof - thick, z}, {inner, roof, z}, {-inner, roof, z});
+        add_outward(mesh, middle, {{-inner, roof - thick, z}, {inner, roof - thick, z}, {inner, roof, z}, {-inner, roof, z}});
     return mesh;
 }
 
@@ -124,12 +124,12 @@ scene::Mesh wheel_mesh(const AxleSpec& axle) {
         return dvec3(x, radius * std::cos(turn), radius * std::sin(turn));
     };
     for (int i = 0; i < kSpokes; ++i) {
-        add_outward(mesh, dvec3(0), at(i, axle.radius_m, -half), at(i + 1, axle.radius_m, -half), at(i + 1, axle.radius_m, half), at(i, axle.radius_m, half));
+        add_outward(mesh, dvec3(0), {at(i, axle.radius_m, -half), at(i + 1, axle.radius_m, -half), at(i + 1, axle.radius_m, half), at(i, axle.radius_m, half)});
         for (const double side : {-1.0, 1.0}) {
-            add_outward(mesh, dvec3(0), at(i, rim, side * half), at(i + 1, rim, side * half), at(i + 1, axle.radius_m, side * half), at(i, axle.radius_m, side * half));
+            add_outward(mesh, dvec3(0), {at(i, rim, side * half), at(i + 1, rim, side * half), at(i + 1, axle.radius_m, side * half), at(i, axle.radius_m, side * half)});
             // The disc lies in, and every other piece of it deeper: one sees that it turns.
             const double in = side * half * (i % 4 < 2 ? 0.7 : 0.3);
-            add_outward(mesh, dvec3(0), {in, 0, 0}, at(i, rim, in), at(i + 1, rim, in), {in, 1e-4, 0});
+            add_outward(mesh, dvec3(0), {{in, 0, 0}, at(i, rim, in), at(i + 1, rim, in), {in, 1e-4, 0}});
         }
     }
     return mesh;

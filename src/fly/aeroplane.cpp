@@ -46,13 +46,13 @@ Aeroplane::Aeroplane(const AeroplaneSpec& spec, FlyLand land) : spec_(spec), lan
 /// Level flight at cruising speed: lift is weight, no moment, pull is drag.
 void Aeroplane::trim() {
     const Derivatives& air = spec_.air;
-    const double pressure = 0.5 * kAir * spec_.cruise_ms * spec_.cruise_ms;
+    const double pressure = 0.5 * kAir * spec_.cruise_mps * spec_.cruise_mps;
     const double lift = spec_.mass_kg * kGravity / (pressure * spec_.wing_m2);
     trim_attack_ = (lift - air.lift_zero) / air.lift_slope;
     trim_elevator_ = -(air.pitch_zero + air.pitch_slope * trim_attack_) / air.pitch_elevator;
     const double aspect = spec_.span_m * spec_.span_m / spec_.wing_m2;
     const double drag = (air.drag_zero + lift * lift / (glm::pi<double>() * air.oswald * aspect)) * pressure * spec_.wing_m2;
-    const double most = std::min(spec_.static_pull_kn * 1000, spec_.propeller * spec_.power_kw * 1000 / spec_.cruise_ms);
+    const double most = std::min(spec_.static_pull_kn * 1000, spec_.propeller * spec_.power_kw * 1000 / spec_.cruise_mps);
     cruise_throttle_ = std::clamp(drag / most, 0.0, 1.0);
 }
 
@@ -69,7 +69,7 @@ void Aeroplane::put_in_air(const dvec3& position, double yaw_deg) {
     start_.position = position;
     start_.turn = glm::angleAxis(-yaw_deg * kDegree, dvec3(0, 1, 0)) * glm::angleAxis(trim_attack_, dvec3(1, 0, 0));
     const glm::dvec2 wind = land_.wind ? land_.wind(position.x, position.z) : glm::dvec2(0);
-    start_.velocity_mps = dvec3(std::sin(yaw_deg * kDegree), 0, -std::cos(yaw_deg * kDegree)) * spec_.cruise_ms + dvec3(wind.x, 0, wind.y);
+    start_.velocity_mps = dvec3(std::sin(yaw_deg * kDegree), 0, -std::cos(yaw_deg * kDegree)) * spec_.cruise_mps + dvec3(wind.x, 0, wind.y);
     begin_again();
 }
 
@@ -157,7 +157,8 @@ void Aeroplane::turn_by(const dvec3& moment) {
 
 /// Whether nose, tail or a wing's tip is in the ground.
 bool Aeroplane::hits() const {
-    for (const dvec3& part : {dvec3(-spec_.span_m / 2, 0.6, 0), dvec3(spec_.span_m / 2, 0.6, 0), dvec3(0, -0.2, -0.35 * spec_.length_m), dvec3(0, 0.2, 0.62 * spec_.length_m), dvec3(0, 0.9, 0)}) {
+    const double half = spec_.span_m / 2, nose = -0.35 * spec_.length_m, tail = 0.62 * spec_.length_m;
+    for (const dvec3& part : {dvec3(-half, 0.6, 0), dvec3(half, 0.6, 0), dvec3(0, -0.2, nose), dvec3(0, 0.2, tail), dvec3(0, 0.9, 0)}) {
         const dvec3 at = now_.position + now_.turn * part;
         if (land_.height(at.x, at.z) > at.y)
             return true;

@@ -26,9 +26,9 @@ void add_body(scene::Mesh& mesh, const Ring& front, const Ring& rear) {
     const auto a = corners(front), b = corners(rear);
     const dvec3 middle(0, (front.low + front.high + rear.low + rear.high) / 4, (front.z + rear.z) / 2);
     for (std::size_t i = 0; i < 4; ++i)
-        add_outward(mesh, middle, a[i], a[(i + 1) % 4], b[(i + 1) % 4], b[i]);
-    add_outward(mesh, middle, a[0], a[1], a[2], a[3]);
-    add_outward(mesh, middle, b[0], b[1], b[2], b[3]);
+        add_outward(mesh, middle, {a[i], a[(i + 1) % 4], b[(i + 1) % 4], b[i]});
+    add_outward(mesh, middle, {a[0], a[1], a[2], a[3]});
+    add_outward(mesh, middle, {b[0], b[1], b[2], b[3]});
 }
 
 /// A box from one corner to the other.
@@ -41,7 +41,7 @@ void add_box(scene::Mesh& mesh, const dvec3& low, const dvec3& high) {
         for (const double side : {0.0, 1.0}) {
             dvec3 at = low;
             at[axis] += side * size[axis];
-            add_outward(mesh, middle, at, at + u, at + u + v, at + v);
+            add_outward(mesh, middle, {at, at + u, at + u + v, at + v});
         }
     }
 }
@@ -59,7 +59,8 @@ scene::Mesh aeroplane_mesh(const AeroplaneSpec& spec) {
     for (const double side : {-1.0, 1.0}) { // what holds it: struts of the cabin, one behind the pilot too
         add_box(mesh, {side * 0.5 - 0.03, chin - 0.1, -0.3 * chord}, {side * 0.5 + 0.03, wing, -0.3 * chord + 0.05});
         add_box(mesh, {side * 0.46 - 0.03, chin, 0.6 * chord}, {side * 0.46 + 0.03, wing, 0.6 * chord + 0.05});
-        add_box(mesh, {side * spec.gear_track_m / 2 - 0.08, -spec.gear_m, spec.gear_back_m - 0.2}, {side * spec.gear_track_m / 2 + 0.08, 0.4 - spec.gear_m, spec.gear_back_m + 0.2});
+        const double wheel = side * spec.gear_track_m / 2;
+        add_box(mesh, {wheel - 0.08, -spec.gear_m, spec.gear_back_m - 0.2}, {wheel + 0.08, 0.4 - spec.gear_m, spec.gear_back_m + 0.2});
     }
     add_box(mesh, {-spec.gear_track_m / 2, 0.3 - spec.gear_m, spec.gear_back_m - 0.05}, {spec.gear_track_m / 2, 0.36 - spec.gear_m, spec.gear_back_m + 0.05});
     add_box(mesh, {-0.07, -spec.gear_m, -spec.gear_ahead_m - 0.18}, {0.07, 0.36 - spec.gear_m, -spec.gear_ahead_m + 0.18});

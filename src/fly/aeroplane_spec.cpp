@@ -66,7 +66,7 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     reader.number("propeller", spec.propeller, {0.1, 1, ""});
     reader.number("static_pull_kn", spec.static_pull_kn, {0.05, 100, "kN"});
     read_three(reader, "throw_deg", spec.throw_deg, {1, 45, "degrees"});
-    reader.number("cruise_ms", spec.cruise_ms, {10, 200, "m/s"});
+    reader.number("cruise_mps", spec.cruise_mps, {10, 200, "m/s"});
     reader.number("gear_m", spec.gear_m, {0.2, 5, "m"});
     reader.number("gear_track_m", spec.gear_track_m, {0.5, 15, "m"});
     reader.number("gear_ahead_m", spec.gear_ahead_m, {0.3, 15, "m"});
@@ -76,10 +76,11 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     if (std::optional<TableReader> air = reader.table("air"))
         read_air(*air, spec.air);
     reader.finish();
-    const double lift = 2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_ms * spec.cruise_ms);
+    const double lift = 2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
     const double most = spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * 3.14159265358979 / 180;
     if (lift > 0.8 * most)
-        throw reader.error("cruise_ms", fmt::format("{} m/s, at which the wing needs a lift coefficient of {:.2f}", spec.cruise_ms, lift), fmt::format("one below {:.2f}: faster, lighter, or more wing", 0.8 * most));
+        throw reader.error("cruise_mps", fmt::format("{} m/s, at which the wing needs a lift coefficient of {:.2f}", spec.cruise_mps, lift),
+                           fmt::format("one below {:.2f}: faster, lighter, or more wing", 0.8 * most));
     return spec;
 }
 

@@ -3,13 +3,13 @@
 
 namespace sward::scene {
 
-void add_quad(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    const glm::dvec3 across = glm::cross(c - a, d - b);
+void add_quad(Mesh& mesh, const Quad& face) {
+    const glm::dvec3 across = glm::cross(face.c - face.a, face.d - face.b);
     const double area = glm::length(across);
     if (!(area > 1e-9))
         return;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    for (const glm::dvec3& corner : {a, b, c, d}) {
+    for (const glm::dvec3& corner : {face.a, face.b, face.c, face.d}) {
         mesh.positions.emplace_back(corner);
         mesh.normals.emplace_back(across / area);
     }
@@ -17,11 +17,10 @@ void add_quad(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::d
     mesh.triangles.push_back({first, first + 2, first + 3});
 }
 
-void add_outward(Mesh& mesh, const glm::dvec3& middle, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
-    if (glm::dot(glm::cross(c - a, d - b), (a + b + c + d) / 4.0 - middle) < 0)
-        add_quad(mesh, d, c, b, a);
-    else
-        add_quad(mesh, a, b, c, d);
+void add_outward(Mesh& mesh, const glm::dvec3& middle, const Quad& face) {
+    const glm::dvec3 own = (face.a + face.b + face.c + face.d) / 4.0;
+    const bool inward = glm::dot(glm::cross(face.c - face.a, face.d - face.b), own - middle) < 0;
+    add_quad(mesh, inward ? Quad{face.d, face.c, face.b, face.a} : face);
 }
 
 } // namespace sward::scene

@@ -5,9 +5,14 @@
 
 namespace sward::scene {
 
-/// Adds a flat four-sided face; its front is where the corners run against the clock. Every face has corners of its own. One without area is left out.
-void add_quad(Mesh& mesh, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
+/// A flat four-sided face; its front is where the corners run against the clock.
+struct Quad {
+    glm::dvec3 a, b, c, d;
+};
+
+/// Every face has corners of its own. One without area is left out.
+void add_quad(Mesh& mesh, const Quad& face);
 /// The same, its front away from `middle`: for convex bodies.
-void add_outward(Mesh& mesh, const glm::dvec3& middle, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d);
+void add_outward(Mesh& mesh, const glm::dvec3& middle, const Quad& face);
 
 } // namespace sward::scene

@@ -26,8 +26,8 @@ shared::TrackRules rules_of(const scene::TrackSpec& spec, double canopy_m) {
     rules.step_s = static_cast<float>(kStep_s);
     rules.damping = static_cast<float>(spec.damping);
     rules.recovery_per_s2 = static_cast<float>(spec.recovery_per_s2);
-    rules.wave_mps = static_cast<float>(spec.wave_ms);
-    rules.rate_wave_mps = static_cast<float>(spec.rate_wave_ms);
+    rules.wave_mps = static_cast<float>(spec.wave_mps);
+    rules.rate_wave_mps = static_cast<float>(spec.rate_wave_mps);
     rules.wave_gain_m = static_cast<float>(spec.wave_gain_m);
     rules.most_wave_mps = shared::track_greatest_wave(rules.cell_m, rules.step_s, rules.recovery_per_s2);
     rules.canopy_m = static_cast<float>(canopy_m);

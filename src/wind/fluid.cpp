@@ -105,8 +105,8 @@ void Fluid::lay_out_levels() {
     constants_.confinement = static_cast<float>(settings_.confinement);
     constants_.diffusion = static_cast<float>(diffusion);
     constants_.kept = static_cast<float>(1 / (1 + settings_.dissipation_per_s * step));
-    constants_.brake_mps = shared::kWindCeiling_ms;
-    constants_.mean = glm::vec2(settings_.mean_ms);
+    constants_.brake_mps = shared::kWindCeiling_mps;
+    constants_.mean = glm::vec2(settings_.mean_mps);
     constants_.rim_cells = static_cast<float>(std::min(kRimCells, side / 8.0));
     constants_.rim_share = static_cast<float>(1 - std::exp(-kRimRate_per_s * step));
     int level = 0, first = 0;
@@ -323,16 +323,16 @@ void Fluid::solve(int iterations) {
     }
 }
 
-void Fluid::set_mean(glm::dvec2 mean_ms) {
-    settings_.mean_ms = mean_ms;
-    constants_.mean = glm::vec2(mean_ms); // uploaded by step()
+void Fluid::set_mean(glm::dvec2 mean_mps) {
+    settings_.mean_mps = mean_mps;
+    constants_.mean = glm::vec2(mean_mps); // uploaded by step()
 }
 
-void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_ms) {
+void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_mps) {
     time_s_ = time_s;
-    const double loudest = inputs.loudest_ms();
-    const double limit = std::max(calm_ms, std::isfinite(loudest) ? 1.2 * loudest : calm_ms);
-    constants_.brake_mps = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_ms)));
+    const double loudest = inputs.loudest_mps();
+    const double limit = std::max(calm_mps, std::isfinite(loudest) ? 1.2 * loudest : calm_mps);
+    constants_.brake_mps = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_mps)));
     rim_buffer_.upload(&rim, sizeof(rim));
     upload_constants();
     const bool solids_changed = inputs.fill_solids(grid(), moved_ || !solids_known_);

@@ -52,7 +52,7 @@ WindForce arrow_force(const scene::WindArrow& arrow, glm::dvec2 origin, double l
     const double radius = std::max(arrow.radius_m, least_m);
     set_place(force, arrow.tip - origin, glm::normalize(arrow.tip - arrow.root));
     set_extent(force, radius, 0);
-    set_push(force, shared::kForceDisc, arrow.strength_ms, kArrowRate * arrow.strength_ms / (2 * radius));
+    set_push(force, shared::kForceDisc, arrow.strength_mps, kArrowRate * arrow.strength_mps / (2 * radius));
     return force;
 }
 
@@ -66,7 +66,7 @@ void set_ring(WindForce& force, int kind, double speed, double radius, double re
 
 Outwash rotor_outwash(const scene::WindSource& rotor, double height_m) {
     const double area = kPi * rotor.radius_m * rotor.radius_m;
-    const double wake = rotor.strength_ms ? *rotor.strength_ms
+    const double wake = rotor.strength_mps ? *rotor.strength_mps
                                           : 2 * std::sqrt(*rotor.mass_kg * kGravity / (2 * kAirDensity * area));
     const double jet_radius = kContraction * rotor.radius_m;
     const double slowed = std::hypot(1.0, std::max(height_m, 0.0) / (kCoreDiameters * 2 * jet_radius));
@@ -86,14 +86,14 @@ void ForceList::set_arrows(std::vector<scene::WindArrow> arrows) {
 WindForce ForceList::force_of(const scene::WindSource& source, double time_s, glm::dvec2 origin) const {
     const Carried at = carried_at(source.where, paths_, time_s);
     const double radius = source.radius_m;
-    double strength = source.strength_ms.value_or(0);
+    double strength = source.strength_mps.value_or(0);
     WindForce force{};
     set_place(force, at.place - origin, heading(at.yaw_deg));
     switch (source.kind) {
     case Kind::kRotor: {
         const double ground = at.agl ? 0 : ground_(at.place.x, at.place.y);
         const Outwash outwash = rotor_outwash(source, source.height_m.value_or(at.height_m - ground));
-        set_ring(force, shared::kForceRing, outwash.speed_ms, outwash.radius_m, source.reach_m);
+        set_ring(force, shared::kForceRing, outwash.speed_mps, outwash.radius_m, source.reach_m);
         force.reach_m = std::max(force.reach_m, static_cast<float>(1.5 * outwash.radius_m));
         break;
     }
@@ -117,7 +117,7 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         const double speed = glm::length(at.velocity);
         if (speed > 1e-3)
             set_place(force, at.place - origin, at.velocity / speed);
-        if (!source.strength_ms)
+        if (!source.strength_mps)
             strength = speed;
         set_extent(force, radius, source.length_m);
         set_push(force, shared::kForceWake, strength, kWakeRate * strength / radius);
@@ -128,7 +128,7 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         set_extent(force, radius, radius);
         set_push(force, shared::kForceWave, strength, 0);
         force.wave_number = static_cast<float>(k);
-        force.wave_phase = static_cast<float>(-std::fmod(k * source.travel_ms.value_or(strength) * time_s, 2 * kPi));
+        force.wave_phase = static_cast<float>(-std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * kPi));
         break;
     }
     }
@@ -138,7 +138,7 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
 std::vector<WindForce> ForceList::at(double time_s, glm::dvec2 origin, double least_m) const {
     std::vector<WindForce> forces;
     for (std::size_t i = 0; i < arrows_.size(); ++i)
-        if (time_s >= spans_[i].start_s && time_s < spans_[i].end_s && arrows_[i].strength_ms > 0)
+        if (time_s >= spans_[i].start_s && time_s < spans_[i].end_s && arrows_[i].strength_mps > 0)
             forces.push_back(arrow_force(arrows_[i], origin, least_m));
     for (const scene::WindSource& source : sources_) {
         if (time_s < source.start_s || time_s >= source.end_s)

@@ -19,7 +19,7 @@ PublishedScheme::PublishedScheme(const FluidSettings& settings) : cells_(setting
     grid.step_per_m = static_cast<float>(settings.step_s / settings.cell_m);
     grid.confinement = static_cast<float>(settings.confinement);
     grid.kept = static_cast<float>(1 / (1 + settings.dissipation_per_s * settings.step_s));
-    grid.brake_mps = shared::kWindCeiling_ms;
+    grid.brake_mps = shared::kWindCeiling_mps;
     constants_.upload(&grid, sizeof(grid));
     for (const char* name : {"vorticity", "published_advect", "published_confine", "published_divergence", "published_jacobi", "published_project"}) {
         programs_.emplace(name, gl::Program(std::string("wind ") + name, {std::string("wind/") + name + ".comp"}));

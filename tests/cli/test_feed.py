@@ -21,7 +21,7 @@ detail_m = 0
 [grass]
 set = "set"
 [wind]
-speed_ms = 5
+speed_mps = 5
 direction_deg = 270
 gust = 0
 """

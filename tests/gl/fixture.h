@@ -163,7 +163,7 @@ struct SmallWorld {
     }
     static scene::WindSpec breeze() {
         scene::WindSpec spec;
-        spec.speed_ms = 5;
+        spec.speed_mps = 5;
         spec.gust = 0.6;
         return spec;
     }

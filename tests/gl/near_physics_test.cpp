@@ -57,7 +57,7 @@ protected:
     }
     static scene::WindSpec calm() {
         scene::WindSpec spec;
-        spec.speed_ms = 0;
+        spec.speed_mps = 0;
         spec.gust = 0;
         return spec;
     }

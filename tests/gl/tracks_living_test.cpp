@@ -43,7 +43,7 @@ TEST_F(TracksLiving, ABladeThatWakesOnATrackBeginsPressedAndStaysSo) {
     world_.upload();
 
     scene::WindSpec calm;
-    calm.speed_ms = 0;
+    calm.speed_mps = 0;
     calm.gust = 0;
     wind::Wind wind(calm, 0.1);
     const std::map<std::filesystem::path, scene::SphereSet> none{};

@@ -49,7 +49,7 @@ public:
         const_cast<gl::Buffer*>(grid.u)->upload(u.data(), count * sizeof(float));
         const_cast<gl::Buffer*>(grid.v)->upload(v.data(), count * sizeof(float));
     }
-    [[nodiscard]] double loudest_ms() const override { return loudest; }
+    [[nodiscard]] double loudest_mps() const override { return loudest; }
 
     /// Storage place of a logical cell.
     static std::size_t stored(const wind::FluidGrid& grid, glm::ivec2 cell) {

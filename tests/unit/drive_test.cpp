@@ -120,31 +120,31 @@ TEST(Vehicle, DrivesTwoHundredMetresTurnsAndStops) {
     VehicleState state = vehicle.state();
     EXPECT_LT(state.position.z, -200);
     EXPECT_NEAR(state.position.x, 0, 1) << "straight on";
-    EXPECT_GT(state.speed_ms(), 20);
-    EXPECT_LT(state.speed_ms(), 50);
+    EXPECT_GT(state.speed_mps(), 20);
+    EXPECT_LT(state.speed_mps(), 50);
     drive(vehicle, 1.5, {0, 1, 0});
     state = vehicle.state();
     EXPECT_GT(yaw_deg(state), 5) << "to the right";
     EXPECT_LT(yaw_deg(state), 120);
     drive(vehicle, 8, {0, 0, 1});
     state = vehicle.state();
-    EXPECT_NEAR(state.speed_ms(), 0, 0.05);
+    EXPECT_NEAR(state.speed_mps(), 0, 0.05);
     const glm::dvec3 stopped = state.position;
     drive(vehicle, 3, {-1, 0, 0});
-    EXPECT_LT(vehicle.state().speed_ms(), -2) << "the same pedal drives back";
-    EXPECT_GT(vehicle.state().speed_ms(), -25 / 3.6 - 0.5);
+    EXPECT_LT(vehicle.state().speed_mps(), -2) << "the same pedal drives back";
+    EXPECT_GT(vehicle.state().speed_mps(), -25 / 3.6 - 0.5);
     EXPECT_GT(glm::distance(vehicle.state().position, stopped), 3);
 }
 
 TEST(Vehicle, GripIsTheSurfaces) {
     const auto braking = [](Surface surface) {
         Vehicle vehicle(car(), flat(surface));
-        for (int i = 0; i < 3000 && vehicle.state().speed_ms() < 15; ++i)
+        for (int i = 0; i < 3000 && vehicle.state().speed_mps() < 15; ++i)
             vehicle.advance(1.0 / 60, {1, 0, 0});
-        EXPECT_GE(vehicle.state().speed_ms(), 15);
+        EXPECT_GE(vehicle.state().speed_mps(), 15);
         const glm::dvec3 begin = vehicle.state().position;
         drive(vehicle, 15, {0, 0, 1});
-        EXPECT_NEAR(vehicle.state().speed_ms(), 0, 0.1);
+        EXPECT_NEAR(vehicle.state().speed_mps(), 0, 0.1);
         return glm::distance(begin, vehicle.state().position);
     };
     const double road = braking(Surface::kRoad), grass = braking(Surface::kGrass), wet = braking(Surface::kWetGrass);
@@ -183,10 +183,10 @@ TEST(Vehicle, NeverFallsThroughAndNeverExplodesAtAnyRate) {
                 const double t = i / rate;
                 vehicle.advance(1 / rate, {std::fmod(t, 9) < 7 ? 1.0 : -1.0, std::sin(t * 0.6), 0});
                 const VehicleState state = vehicle.state();
-                ASSERT_TRUE(std::isfinite(glm::length(state.position) + glm::length(state.velocity_ms))) << name << rate << " " << t;
+                ASSERT_TRUE(std::isfinite(glm::length(state.position) + glm::length(state.velocity_mps))) << name << rate << " " << t;
                 const glm::dvec3 middle = state.position + state.turn * glm::dvec3(0, vehicle.spec().mass_height_m, 0);
                 ASSERT_GT(middle.y, rough(middle.x, middle.z) - 0.35) << name << rate << " " << t;
-                ASSERT_LT(glm::length(state.velocity_ms), 60) << name << rate << " " << t;
+                ASSERT_LT(glm::length(state.velocity_mps), 60) << name << rate << " " << t;
                 ASSERT_LT(middle.y, rough(middle.x, middle.z) + 30) << name << rate << " " << t;
             }
         }

@@ -181,7 +181,7 @@ TEST(Aeroplane, NothingThatIsAskedMakesItNoNumber) {
 
 TEST(AeroplaneSpec, WrongPresetsAreToldWithFileAndKey) {
     EXPECT_NO_THROW(static_cast<void>(parse_aeroplane("", "a.toml")));
-    for (const char* const bad : {"mass_kg = 0", "mass = 3", "span_m = nan", "inertia_kgm2 = [1, 2]", "[air]\npitch_slope = 0.5", "[air]\nlift = 3", "cruise_ms = 15", "= 3"})
+    for (const char* const bad : {"mass_kg = 0", "mass = 3", "span_m = nan", "inertia_kgm2 = [1, 2]", "[air]\npitch_slope = 0.5", "[air]\nlift = 3", "cruise_mps = 15", "= 3"})
         try {
             static_cast<void>(parse_aeroplane(bad, "a.toml"));
             ADD_FAILURE() << bad;

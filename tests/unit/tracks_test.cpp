@@ -24,9 +24,9 @@ using tracks::TrackTwin;
 constexpr float kStep = shared::kTrackStep_s;
 constexpr int kSide = shared::kTrackCells;
 
-TrackRules plain_rules(float wave_ms, float damping, float k, float gain = 0) {
+TrackRules plain_rules(float wave_mps, float damping, float k, float gain = 0) {
     scene::TrackSpec spec;
-    spec.wave_ms = static_cast<double>(wave_ms);
+    spec.wave_mps = static_cast<double>(wave_mps);
     spec.damping = static_cast<double>(damping);
     spec.recovery_per_s2 = static_cast<double>(k);
     spec.wave_gain_m = static_cast<double>(gain);
@@ -359,9 +359,9 @@ TEST(Tracks, KeysOutOfRangeAreRefused) {
     EXPECT_NE(refusal("damping = 0").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = 1.5").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = nan").find("tracks.damping"), std::string::npos);
-    EXPECT_NE(refusal("wave_ms = 0.5").find("tracks.wave_ms"), std::string::npos);
+    EXPECT_NE(refusal("wave_mps = 0.5").find("tracks.wave_mps"), std::string::npos);
     EXPECT_NE(refusal("wave_gain_m = 2").find("tracks.wave_gain_m"), std::string::npos);
-    EXPECT_NE(refusal("cell_m = 0.05\nwave_ms = 3").find("tracks.wave_ms"), std::string::npos); // outside the stable bound
+    EXPECT_NE(refusal("cell_m = 0.05\nwave_mps = 3").find("tracks.wave_mps"), std::string::npos); // outside the stable bound
     EXPECT_NE(refusal("pages = 0").find("tracks.pages"), std::string::npos);
     EXPECT_NE(refusal("speed = 3").find("speed"), std::string::npos);
     EXPECT_EQ(refusal("mask = \"a.png\"\nmask_place = [0, 0]\nmask_size_m = [10, 20]"), "");

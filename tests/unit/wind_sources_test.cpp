@@ -20,14 +20,14 @@ using Source = scene::WindSource;
 
 scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip, double strength) {
     scene::WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_ms = strength, a.radius_m = 2;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength, a.radius_m = 2;
     return a;
 }
 
 Source source(Source::Kind kind, double strength, double radius) {
     Source s;
     s.kind = kind;
-    s.strength_ms = strength;
+    s.strength_mps = strength;
     s.radius_m = radius;
     return s;
 }
@@ -125,12 +125,12 @@ double divergence(const WindForce& force, glm::dvec2 at) {
 
 TEST(Forces, ARotorBlowsOutwardsInARing) {
     Source rotor = source(Source::Kind::kRotor, 0, 5);
-    rotor.strength_ms.reset();
+    rotor.strength_mps.reset();
     rotor.mass_kg = 2200;
     rotor.height_m = 3;
     const WindForce force = only_force(list_of({}, {rotor}));
     // Momentum theory: v = sqrt(m g / (2 rho pi R^2)) = 10.59 m/s, twice that far below.
-    EXPECT_NEAR(rotor_outwash(rotor, 0).speed_ms, 21.18, 0.05);
+    EXPECT_NEAR(rotor_outwash(rotor, 0).speed_mps, 21.18, 0.05);
     EXPECT_NEAR(force.speed_mps, 21.1, 0.1);
     const float ring = force.radius_m;
     EXPECT_NEAR(ring, 5.3, 0.1);
@@ -150,17 +150,17 @@ TEST(Forces, ARotorBlowsOutwardsInARing) {
 TEST(Forces, HeightWeakensAndWidensTheOutwash) {
     const Source rotor = source(Source::Kind::kRotor, 20, 5);
     const Outwash low = rotor_outwash(rotor, 1), high = rotor_outwash(rotor, 60), far = rotor_outwash(rotor, 600);
-    EXPECT_NEAR(low.speed_ms, 20, 0.1);
-    EXPECT_LT(high.speed_ms, 0.75 * low.speed_ms);
-    EXPECT_NEAR(far.speed_ms * far.radius_m, low.speed_ms * low.radius_m, 1e-9) << "momentum of a plane of air is kept";
-    EXPECT_NEAR(far.speed_ms, 20 * 42.43 / 600, 0.02) << "1 / height";
+    EXPECT_NEAR(low.speed_mps, 20, 0.1);
+    EXPECT_LT(high.speed_mps, 0.75 * low.speed_mps);
+    EXPECT_NEAR(far.speed_mps * far.radius_m, low.speed_mps * low.radius_m, 1e-9) << "momentum of a plane of air is kept";
+    EXPECT_NEAR(far.speed_mps, 20 * 42.43 / 600, 0.02) << "1 / height";
     // On a path above the datum the ground's height, 100 m here, is taken off.
     Paths paths;
     paths["p"].keys = {{0, {0, 103, 0}, 0, 0}};
     paths["p"].agl = false;
     Source carried = rotor;
     carried.where.path = "p";
-    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps, rotor_outwash(rotor, 3).speed_ms, 1e-4);
+    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps, rotor_outwash(rotor, 3).speed_mps, 1e-4);
 }
 
 TEST(Forces, ACycloneTurnsAndDrawsIn) {
@@ -185,7 +185,7 @@ TEST(Forces, AWaveTravels) {
     Source wave = source(Source::Kind::kWave, 4, 100);
     wave.where.yaw_deg = 90; // east
     wave.wavelength_m = 15;
-    wave.travel_ms = 6;
+    wave.travel_mps = 6;
     const ForceList list = list_of({}, {wave});
     const auto flow = [&](double t, double x) {
         return shared::wind_force_at(only_force(list, t), vec2(x, 3)).outflow;
