@@ -3,6 +3,7 @@
 // 64 m grid (x, z) and a whole metre (y), chosen on the CPU in double precision.
 #ifndef SWARD_SHARED_FRAME_H
 #define SWARD_SHARED_FRAME_H
+#include "shared/air.h"
 #include "shared/grass_layout.h"
 #include "shared/lod.h"
 #include "shared/shading.h"
@@ -47,9 +48,13 @@ struct FrameConstants {
     float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
     int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
     float unused_a; // to 16 bytes
+    Air air;
+    vec4 shadow_place; // of the land's shadow: u, v of the anchor; u, v a metre
+    float has_shadow;  // 1 where the land's shadow is known
+    float unused_b, unused_c, unused_d; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112 + sizeof(Air) + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -17,9 +17,9 @@ SHARED_CONST float kSkyExtinction = 1.1f;
 // Sun and sky, linear. 64 bytes.
 struct Light {
     vec4 to_sun;  // unit direction; w: extinction of sunlight by the whole canopy at zenith (optical depth)
-    vec4 sun;     // rgb irradiance on a plane facing the sun / pi; w: haze per metre
-    vec4 zenith;  // rgb sky radiance overhead; w: extinction of skylight by the whole canopy
-    vec4 horizon; // rgb sky radiance at the horizon; w: exposure
+    vec4 sun;     // rgb irradiance on a plane facing the sun / pi; w: unused
+    vec4 zenith;  // rgb the sky's irradiance on level ground / pi; w: extinction of skylight by the whole canopy
+    vec4 horizon; // rgb mean sky radiance near the horizon; w: unused
 };
 #ifdef __cplusplus
 static_assert(sizeof(Light) == 64);
@@ -206,27 +206,6 @@ SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) 
     float sun = mix(max(slope, 0.0f), max(slope, 0.0f) * canopy_sun(light, 0.0f, slope), density);
     float sky = mix(1.0f, canopy_sky(light, 0.0f), density) * (0.5f + 0.5f * normal.y);
     return albedo * (vec3(light.sun) * sun + even_sky(light) * sky);
-}
-
-// Sky radiance in a unit direction.
-SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
-    float up = max(direction.y, 0.0f);
-    float low = (1.0f - up) * (1.0f - up);
-    vec3 sky = mix(vec3(light.zenith), vec3(light.horizon), low * low * (0.55f + 0.45f * low));
-    float toward = max(dot(direction, vec3(light.to_sun)), 0.0f);
-    float wide = toward * toward * toward * toward;
-    wide *= wide; // 8th power; the narrow one is the 64th
-    float narrow = wide * wide * wide * wide;
-    float halo = 0.12f * wide + 0.35f * narrow * narrow;
-    return sky + vec3(light.sun) * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;
-}
-
-// Air between the eye and a surface (offset from_eye, m): fades to the horizon's colour in that direction. rgb: light that the air
-// adds; a: share of the surface's that it lets through. Smooth: grass takes it at its vertices.
-SHARED_FN vec4 haze_of(Light light, vec3 from_eye) {
-    float clear = exp(-length(from_eye) * light.sun.w);
-    vec3 level = normalize(vec3(from_eye.x, 0.02f * length(from_eye) + 1e-6f, from_eye.z));
-    return vec4(sky_radiance(light, level) * (1.0f - clear), clear);
 }
 
 SHARED_END

@@ -16,7 +16,8 @@ out vec4 ground_here; // height of the ground (world y), grass density, cosine t
 out vec3 ground_slope; // dy/dx, dy/dz; share of the family's blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
 out vec2 sway;          // canopy_sway
-out vec4 haze;
+out vec3 air_added;
+out vec3 air_through;
 flat out ivec4 image;
 
 // The shares were found for blades at rest; what they hang on is the angle between view and blades, so bent ones take the view's
@@ -85,7 +86,9 @@ void main() {
     turn = bend_turn(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
     ground_here = ground;
     ground_slope = vec3(motion.xy, family_share(world - frame.eye.xyz, motion.xy, bend, instance.image.w));
-    haze = haze_of(frame.light, world - frame.eye.xyz);
+    AirLight air = haze_of(world - frame.eye.xyz);
+    air_added = air.added;
+    air_through = air.through;
     image = instance.image;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

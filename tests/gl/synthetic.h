@@ -27,9 +27,9 @@ inline shared::GrassAppearance grass_look() {
 
 inline shared::Light daylight(glm::vec3 to_sun) {
     return {glm::vec4(to_sun, shared::kSunExtinction),
-            {3.6f, 3.4f, 3.0f, 2.2e-5f},
+            {3.6f, 3.4f, 3.0f, 0},
             {0.22f, 0.42f, 0.85f, shared::kSkyExtinction},
-            {0.82f, 0.96f, 1.12f, 1}};
+            {0.82f, 0.96f, 1.12f, 0}};
 }
 
 inline scene::Heightfield flat_field(float metres) {
