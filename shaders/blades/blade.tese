@@ -29,7 +29,8 @@ out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
 flat out vec3 sort;    // tint of the ground, species, share of the simulated pose
-out vec4 haze;
+out vec3 air_added;
+out vec3 air_through;
 
 void main() {
     float u = gl_TessCoord.x;
@@ -66,6 +67,8 @@ void main() {
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
     sort = blade_in[0].ground.yzw;
-    haze = haze_of(frame.light, world - frame.eye);
+    AirLight air = haze_of(world - frame.eye);
+    air_added = air.added;
+    air_through = air.through;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -20,7 +20,7 @@ struct GrassSample {
     float tint;
     float tier;
     int species;
-    vec4 haze;
+    AirLight air;
 };
 
 void write_grass(GrassSample s) {
@@ -33,6 +33,6 @@ void write_grass(GrassSample s) {
 #ifdef SURFACE
     light = light_under(light, open_sky);
 #endif
-    vec3 radiance = shade_grass(frame.looks[s.species], light, point, to_eye) * s.haze.a + s.haze.rgb;
+    vec3 radiance = shade_grass(frame.looks[s.species], light, point, to_eye) * s.air.through + s.air.added;
     write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What bends the grass at a place, wind and track as one, and what that does to the light in it.
+#include "lib/land_shadow.glsl"
 #include "lib/track.glsl"
 #include "lib/wind.glsl"
 #include "shared/bend.h"
@@ -34,13 +35,16 @@ Sway sway_of(vec2 wind, TrackSeen track) {
     return Sway(mean.wind, track.pressed, track.lying, mean.aligned);
 }
 
-// canopy_sway for the set's first species, sun and eye; x, z of where the bend turns an upright blade at kLeanHeight.
+// canopy_sway for the set's first species, sun and eye, its sunlight less what the land hides; x, z of where the bend turns an upright
+// blade at kLeanHeight.
 vec4 sway_at(vec3 ground, vec2 wind) {
     float canopy = frame.canopy_m;
     vec3 to_eye = normalize(frame.eye - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
     vec3 turn = bend_turn(kSwayHeight * canopy, canopy, wind, frame.wind.response);
     vec3 lean = bend_turn(kLeanHeight * canopy, canopy, wind, frame.wind.response);
-    return vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun, to_eye), lean.xz);
+    vec4 sway = vec4(canopy_sway(frame.looks[0], turn, frame.light.to_sun, to_eye), lean.xz);
+    sway.x *= sun_seen(ground.xz, 0.0);
+    return sway;
 }
 
 // The same with what lies there.

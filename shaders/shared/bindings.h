@@ -116,6 +116,7 @@
 #define TEX_TRACK_BENDS 14     // RGBA32F buffer: theta, omega of the blocks that move
 #define TEX_TRACK_SHOWN 28     // R32UI buffer: kTrackWords a page
 #define TEX_TRACK_TABLE 29     // RGBA32I buffer: page x, z; its slot, -1: none; 1 where something moves: a hashed table; then each slot's blocks
+#define TEX_LAND_SHADOW 30      // RG16F: heights over the ground at which the sun begins to be seen and is wholly seen (m)
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 
 #define CULL_GROUP 128         // blades a workgroup; a chunk of a tile's list

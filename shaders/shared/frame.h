@@ -3,6 +3,7 @@
 // 64 m grid (x, z) and a whole metre (y), chosen on the CPU in double precision.
 #ifndef SWARD_SHARED_FRAME_H
 #define SWARD_SHARED_FRAME_H
+#include "shared/air.h"
 #include "shared/grass_layout.h"
 #include "shared/lod.h"
 #include "shared/shading.h"
@@ -81,11 +82,16 @@ struct FrameConstants {
     float near_m;         // near plane; depth, which is reversed, holds it over the distance along the axis
     int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
     int unused_a, unused_b; // to 16 bytes
+    Air air;
+    vec2 shadow_offset;   // of the land's shadow: u, v of the anchor
+    vec2 shadow_per_m;    // u, v a metre
+    float has_shadow;     // 1 where the land's shadow is known
+    float unused_c, unused_d, unused_e; // to 16 bytes
 };
 #ifdef __cplusplus
 static_assert(sizeof(ClipLevel) == 16 && sizeof(FarBand) == 16);
 static_assert(sizeof(FrameConstants) == 128 + 16 * (8 + kMaxFarLevels + 1 + kMaxClipLevels + 7) + sizeof(GrassAppearance) * kMaxSpecies +
-                                             sizeof(Light) + sizeof(WindField) + sizeof(TrackField));
+                                             sizeof(Light) + sizeof(WindField) + sizeof(TrackField) + sizeof(Air) + 32);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -198,26 +198,5 @@ SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) 
     return albedo * (light.sun * sun + even_sky(light) * sky);
 }
 
-// Sky radiance in a unit direction.
-SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
-    float up = max(direction.y, 0.0f);
-    float low = (1.0f - up) * (1.0f - up);
-    vec3 sky = mix(light.zenith, light.horizon, low * low * (0.55f + 0.45f * low));
-    float toward = max(dot(direction, light.to_sun), 0.0f);
-    float wide = toward * toward * toward * toward;
-    wide *= wide; // 8th power; the narrow one is the 64th
-    float narrow = wide * wide * wide * wide;
-    float halo = 0.12f * wide + 0.35f * narrow * narrow;
-    return sky + light.sun * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;
-}
-
-// Air between the eye and a surface (offset from_eye, m): fades to the horizon's colour in that direction. rgb: light that the air
-// adds; a: share of the surface's that it lets through. Smooth: grass takes it at its vertices.
-SHARED_FN vec4 haze_of(Light light, vec3 from_eye) {
-    float clear = exp(-length(from_eye) * light.haze_per_m);
-    vec3 level = normalize(vec3(from_eye.x, 0.02f * length(from_eye) + 1e-6f, from_eye.z));
-    return vec4(sky_radiance(light, level) * (1.0f - clear), clear);
-}
-
 SHARED_END
 #endif

@@ -14,7 +14,8 @@ in vec3 rest;
 in vec4 ground_here;
 in vec3 ground_slope;
 in vec3 turn;
-in vec4 haze;
+in vec3 air_added;
+in vec3 air_through;
 flat in ivec4 image;
 
 // Texels are as wide as a pixel from here on: above 0 coarser, cheaper for caches, and blades break up sooner.
@@ -129,5 +130,6 @@ void main() {
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, along, clamp(rest.y / frame.canopy_m, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), haze));
+    AirLight air = AirLight(air_added, air_through);
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, along, clamp(rest.y / frame.canopy_m, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), air));
 }

@@ -16,7 +16,8 @@ out vec4 ground_here; // height of the ground (world y), grass density, cosine t
 out vec3 ground_slope; // dy/dx, dy/dz; share of the family's blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
 out vec2 sway;          // canopy_sway
-out vec4 haze;
+out vec3 air_added;
+out vec3 air_through;
 flat out ivec4 image; // as FarInstance: image, planes, axis, level
 
 // The shares were found for blades at rest; what they hang on is the angle between view and blades, so bent ones take the view's
@@ -84,7 +85,9 @@ void main() {
     turn = bend_turn(y, frame.canopy_m, here.wind, frame.wind.response);
     ground_here = vec4(here.height_m, here.density, here.sun_cosine, here.tint);
     ground_slope = vec3(here.slope, family_share(world - frame.eye, here.slope, here.bend, instance.level));
-    haze = haze_of(frame.light, world - frame.eye);
+    AirLight air = haze_of(world - frame.eye);
+    air_added = air.added;
+    air_through = air.through;
     image = ivec4(instance.image, instance.planes, instance.axis, instance.level);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

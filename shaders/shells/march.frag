@@ -326,8 +326,8 @@ void main() {
         vec3 grass;
         MarchWalk walk = march(view, entry, path, mix(vec4(-1.0), scene, members), seen, grass);
         half_way = min(half_way, seen.half_way);
-        vec4 haze = haze_of(frame.light, view.way * min(seen.half_way, entry.distance + 1.0));
-        radiance += grass * haze.a + haze.rgb * mean_of(through - seen.through);
+        AirLight air = haze_of(view.way * min(seen.half_way, entry.distance + 1.0));
+        radiance += grass * air.through + air.added * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
 #ifdef SURFACE

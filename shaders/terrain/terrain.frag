@@ -57,7 +57,8 @@ void main() {
         shade = sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.focal_px)).y;
     }
     vec3 soil_albedo = soil_colour(world.xz, ground, distance_m / frame.focal_px * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
-    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, shade)), soil_albedo, ground.normal, ground.density);
+    float sun = sun_seen(world.xz, 0.0);
+    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(sun, shade)), soil_albedo, ground.normal, ground.density);
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye), frame.far_bands[frame.far_levels - 1].outgoing);
     left_shells *= frame.ground_takes_over; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
@@ -69,9 +70,10 @@ void main() {
     // The table is of flat ground.
     float slope = dot(ground.normal, frame.light.to_sun);
     float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
-    vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.focal_px));
+    vec3 grass = canopy.sun.rgb * (relight * sun) + canopy.sky.rgb;
+    grass *= sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.focal_px));
 
-    vec4 haze = haze_of(frame.light, from_eye);
-    vec3 radiance = mix(soil, grass, coverage) * haze.a + haze.rgb;
+    AirLight air = haze_of(from_eye);
+    vec3 radiance = mix(soil, grass, coverage) * air.through + air.added;
     write_surface(radiance, vec3(kTierGround, coverage, 0.0), vec3(0.0), ground.normal);
 }

@@ -31,26 +31,6 @@ glm::dmat4 clip_from_eye(const Lens& lens, const FrameSettings& settings, glm::d
     return projection * lens.turn;
 }
 
-/// Clear summer sky by the sun's height: warmer and weaker as it sinks.
-shared::Light light_of(const scene::SunSpec& sun) {
-    const glm::dvec3 to_sun = direction(sun.azimuth_deg, sun.elevation_deg);
-    const double high = std::max(to_sun.y, 0.0);
-    const double air = 1 / (high + 0.15 * std::pow(93.9 - std::min(90.0, 90 - sun.elevation_deg), -1.253)); // Kasten 1965
-    const glm::dvec3 through = glm::exp(-glm::dvec3(0.06, 0.11, 0.22) * air); // clear-air optical depths at R, G, B
-    const double dusk = glm::smoothstep(-6.0, 8.0, sun.elevation_deg);
-    shared::Light light{};
-    light.to_sun = glm::vec3(to_sun);
-    light.sun_extinction = shared::kSunExtinction;
-    light.sun = glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg));
-    light.haze_per_m = 2.2e-5f;
-    light.zenith = glm::vec3(glm::dvec3(0.16, 0.36, 0.86) * (0.05 + 0.95 * dusk));
-    light.sky_extinction = shared::kSkyExtinction;
-    light.horizon = glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
-                              (0.04 + 0.96 * dusk));
-    light.exposure = 1;
-    return light;
-}
-
 /// Bands by tier: the reference and --tiers blades draw geometry to one distance and hand nothing on.
 void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const FrameSettings& settings) {
     const bool geometry_only = settings.tiers == Tiers::kBlades || settings.tiers == Tiers::kReference;
@@ -104,6 +84,17 @@ double flutter_time(double time_s) {
 
 } // namespace
 
+glm::dvec3 FieldState::to_sun() const { return direction(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg); }
+
+void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye, const glm::dvec2& anchor) const {
+    const Atmosphere::Day& day = atmosphere.at(to_sun());
+    out.light = day.light;
+    out.air = Atmosphere::thinned(day.air, eye.y - surface.range().x);
+    if (land_shadow) {
+        land_shadow->describe(out, anchor);
+    }
+}
+
 Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) const {
     Shot shot;
     const grass::GrassSet& set = world.grass;
@@ -138,7 +129,7 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     if (mesh_ground) {
         mesh_ground->describe(out, settings.far == FarScheme::kMarch);
     }
-    out.light = light_of(world.scene.sun);
+    light_shot(out, eye, anchor);
     out.wind = wind.field(anchor, time_s);
     if (tracks) {
         out.tracks = tracks->field(anchor);

@@ -69,6 +69,8 @@ void Frame::update_clipmap() {
     v_.clipmap.bind();
 }
 
+void Frame::follow_shadow() { f_.follow_shadow(); }
+
 void Frame::update_far_appearance() {
     f_.far_appearance.update(shot_.constants.light, shot_.constants.wind);
     f_.far_appearance.bind();

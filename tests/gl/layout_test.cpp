@@ -76,7 +76,8 @@ TEST_F(Layout, FrameConstants) {
                      PLACE(far_bands), PLACE(picture_px), PLACE(clip_levels), PLACE(mask_mode), PLACE(clip), PLACE(looks), PLACE(light),
                      PLACE(wind), PLACE(tracks), PLACE(soil), PLACE(soil_cover), PLACE(rock), PLACE(moss), PLACE(litter),
                      PLACE(mask_offset), PLACE(mask_per_m), PLACE(living_band), PLACE(page_blades), PLACE(near_m), PLACE(anchor_x),
-                     PLACE(anchor_z), PLACE(unused_a), PLACE(unused_b)},
+                     PLACE(anchor_z), PLACE(unused_a), PLACE(unused_b), PLACE(air), PLACE(shadow_offset), PLACE(shadow_per_m),
+                     PLACE(has_shadow), PLACE(unused_c), PLACE(unused_d), PLACE(unused_e)},
                     sizeof(Struct));
     }
 }
@@ -145,8 +146,15 @@ TEST_F(Layout, LightAndLooks) {
     {
         using Struct = shared::Light;
         expect_same("Light", "shading.h",
-                    {PLACE(to_sun), PLACE(sun_extinction), PLACE(sun), PLACE(haze_per_m), PLACE(zenith), PLACE(sky_extinction),
-                     PLACE(horizon), PLACE(exposure)},
+                    {PLACE(to_sun), PLACE(sun_extinction), PLACE(sun), PLACE(unused_a), PLACE(zenith), PLACE(sky_extinction),
+                     PLACE(horizon), PLACE(unused_b)},
+                    sizeof(Struct));
+    }
+    {
+        using Struct = shared::Air;
+        expect_same("Air", "air.h",
+                    {PLACE(to_sun), PLACE(molecules_per_m), PLACE(level_sun), PLACE(haze_per_m), PLACE(molecules), PLACE(haze),
+                     PLACE(disc), PLACE(disc_radius), PLACE(sky)},
                     sizeof(Struct));
     }
     {

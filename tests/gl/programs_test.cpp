@@ -240,9 +240,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
 }
 
 TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
-    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT},
-                                                {"clip_surface", TEX_CLIP_SURFACE},
-                                                {"heights", TEX_CLIP_HEIGHT},
+    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT}, {"clip_surface", TEX_CLIP_SURFACE}, {"heights", TEX_CLIP_HEIGHT},
                                                 {"far_images", TEX_FAR_IMAGES}, {"record_texels", TEX_PHYSICS_BLADES},
                                                 {"far_shapes", TEX_FAR_SHAPES},
                                                 {"densities", TEX_MARCH_DENSITY},
@@ -259,7 +257,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
-                                                {"mask", TEX_MASK},
+                                                {"mask", TEX_MASK}, {"land_shadow", TEX_LAND_SHADOW},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
                                                 {"depth", TEX_RESOLVE_DEPTH},

@@ -26,7 +26,7 @@ inline shared::GrassAppearance grass_look() {
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
-    return {to_sun, shared::kSunExtinction, {3.6f, 3.4f, 3.0f}, 2.2e-5f, {0.22f, 0.42f, 0.85f}, shared::kSkyExtinction, {0.82f, 0.96f, 1.12f}, 1};
+    return {to_sun, shared::kSunExtinction, {3.6f, 3.4f, 3.0f}, 0, {0.22f, 0.42f, 0.85f}, shared::kSkyExtinction, {0.82f, 0.96f, 1.12f}, 0};
 }
 
 inline scene::Heightfield flat_field(float metres) {

@@ -44,7 +44,6 @@ shared::Light light_from(const glm::vec3& to_sun) {
     light.zenith = {0.2f, 0.4f, 0.8f};
     light.sky_extinction = shared::kSkyExtinction;
     light.horizon = {0.8f, 0.9f, 1.1f};
-    light.exposure = 1;
     return light;
 }
 

@@ -36,7 +36,6 @@ shared::Light light_from(float elevation_deg, float azimuth_deg) {
     light.zenith = {0.15f, 0.2f, 0.3f};
     light.sky_extinction = shared::kSkyExtinction;
     light.horizon = {0.3f, 0.33f, 0.36f};
-    light.exposure = 1;
     return light;
 }
 
