@@ -93,10 +93,10 @@ def descriptor(data, form, say):
         say(f"samples: {found}, expected {samples}")
 
 
-def levels(data, start, shape, form, scheme, say):
+def levels(data, start, shape, packing, say):
     """The level index and the data: smallest first, one after the other, aligned, to the end of the file."""
     width, height, images, count = shape
-    _, side, block, *_ = form
+    side, block, scheme = packing
     align, end = (math.lcm(block, 4) if scheme == NONE else 1), start
     for m in reversed(range(count)):
         offset, length, unpacked = struct.unpack_from("<3Q", data, 80 + 24 * m)
@@ -148,7 +148,7 @@ def problems(data):
         return found + [f"key/value data at {kvd}, {kvd_size} bytes, expected after {dfd + dfd_size}"]
     descriptor(data[dfd:dfd + dfd_size], form, say)
     key_values(data[kvd:kvd + kvd_size], say)
-    levels(data, kvd + kvd_size, (width, height, max(1, images), count), form, scheme, say)
+    levels(data, kvd + kvd_size, (width, height, max(1, images), count), (form[1], form[2], scheme), say)
     return found
 
 
