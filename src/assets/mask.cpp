@@ -11,6 +11,7 @@
 #include "assets/image_file.h"
 #include "assets/mask_warp.h"
 #include "base/error.h"
+#include "base/held_warnings.h"
 #include "base/log.h"
 
 namespace sward::assets {
@@ -48,6 +49,7 @@ void check_values(const std::filesystem::path& path, bool by_class, Channel& cha
 
 scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield* ground) {
     const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    const base::HeldWarnings held;
     ChannelRequest request;
     request.palette = spec.classes.empty() ? Palette::kColours : Palette::kIndices;
     request.band = spec.mask_band;

@@ -121,16 +121,14 @@ Overlap find_overlap(const OverlapCost& cost, bool closed) {
 }
 
 int SeamCut::of(int side, const std::filesystem::path& what) const {
-    const int cut = texels > 0 ? texels : static_cast<int>(std::lround(share * side));
-    const bool wrong = cut < 3 || side - cut < 2 * cut;
-    if (wrong && (texels > 0 || share != SeamCut{}.share))
+    if (side < 9)
+        throw base::input_error(base::ExitCode::kBadInput, what, 0, "size", fmt::format("{} texels a side", side), "at least 9, to cut a third");
+    const bool asked = texels > 0 || share != SeamCut{}.share;
+    const int cut = texels > 0 ? texels : std::max(asked ? 0 : 3, static_cast<int>(std::lround(share * side)));
+    if (cut < 3 || side - cut < 2 * cut)
         throw base::Error(base::ExitCode::kUsage,
                           fmt::format("--cut: found {} of {}'s {} texels, expected 3 to {}: a third of the side", cut,
                                       base::printable(what.string(), 300), side, side / 3));
-    if (wrong)
-        throw base::input_error(base::ExitCode::kBadInput, what, 0, "cut",
-                                fmt::format("{} of {} texels", cut, side),
-                                fmt::format("3 to {}: a third of the side", side / 3));
     return cut;
 }
 
