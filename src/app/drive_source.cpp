@@ -115,7 +115,8 @@ private:
         glm::dvec3 at = state.position + state.turn * spec_.eye_m;
         if (camera_ == 1) {
             const ModelEye::Chase chase{kChaseBack * spec_.size_m.z, spec_.size_m.y + kChaseUp_m, kChaseFollow_per_s, kChasePitch_deg};
-            return eye_.put_behind(view, state.position, sight.yaw, chase, moment.dt_s, moment.land);
+            eye_.come_round(sight.yaw, chase, moment.dt_s);
+            return eye_.put_behind(view, state.position, chase, moment.land);
         }
         if (camera_ == 2) { // beside the front wheel, towards it
             const drive::AxleSpec& axle = spec_.axles[0];

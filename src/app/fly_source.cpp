@@ -119,9 +119,10 @@ private:
         const fly::AeroplaneState state = aeroplane_->state();
         const Angles sight = angles_of(state.turn);
         const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m, kChaseFollow_per_s, kChasePitch_deg};
-        if (camera_ == 1)
-            eye_.put_behind(view, state.position, sight.yaw, chase, moment.dt_s, moment.land);
-        else
+        if (camera_ == 1) {
+            eye_.come_round(sight.yaw, chase, moment.dt_s);
+            eye_.put_behind(view, state.position, chase, moment.land);
+        } else
             eye_.put_on_board(view, state.position + state.turn * spec_.eye_m, sight, moment.land);
     }
 

@@ -25,8 +25,11 @@ void ModelEye::put_on_board(ViewPose& view, const glm::dvec3& at, const Angles& 
     keep_above_ground(view.pose, land.height(at.x, at.z));
 }
 
-void ModelEye::put_behind(ViewPose& view, const glm::dvec3& model, double yaw_deg, const Chase& chase, double dt_s, const Land& land) {
+void ModelEye::come_round(double yaw_deg, const Chase& chase, double dt_s) {
     chase_yaw_ += std::remainder(yaw_deg - chase_yaw_, 360.0) * (1 - std::exp(-chase.per_s * dt_s));
+}
+
+void ModelEye::put_behind(ViewPose& view, const glm::dvec3& model, const Chase& chase, const Land& land) const {
     const double yaw = (chase_yaw_ + look_.x) * kDegree;
     const glm::dvec3 at = model + glm::dvec3(-std::sin(yaw) * chase.back_m, chase.up_m, std::cos(yaw) * chase.back_m);
     put_on_board(view, at, {chase_yaw_, chase.pitch_deg, 0}, land);

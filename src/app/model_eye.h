@@ -21,7 +21,9 @@ public:
     void look_ahead() { look_ = {0, 0}; }
     void look_aside(glm::dvec2 mouse_px);
     void put_on_board(ViewPose& view, const glm::dvec3& at, const Angles& sight, const Land& land) const;
-    void put_behind(ViewPose& view, const glm::dvec3& model, double yaw_deg, const Chase& chase, double dt_s, const Land& land);
+    /// Turns towards where the model points, `yaw_deg`, as far as it comes in `dt_s` seconds.
+    void come_round(double yaw_deg, const Chase& chase, double dt_s);
+    void put_behind(ViewPose& view, const glm::dvec3& model, const Chase& chase, const Land& land) const;
 
 private:
     glm::dvec2 look_{0, 0}; ///< degrees
