@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: blocks of the clipmap (instances) and their samples. Out: the canopy's upper surface over them, as high as the wind leaves it.
+// In: blocks of the clipmap (instances) and their samples. Out: the canopy's upper surface over
+// them, as high as the wind leaves it.
 #include "lib/frame.glsl"
 #include "shared/bend.h"
 
-layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
-layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks {
+    TerrainBlock blocks[];
+};
+layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples {
+    BlockSample samples[];
+};
 
 out vec4 ground; // slope dy/dx, dy/dz; density, tint
 out vec4 air;    // wind, canopy_sway

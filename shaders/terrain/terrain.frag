@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the ground. Out: soil where grass is drawn over it; past the shells, the canopy's far appearance, handed over by the
-// same share as the last shells and slices.
+// In: the ground. Out: soil where grass is drawn over it; past the shells, the canopy's far
+// appearance, handed over by the same share as the last shells and slices.
 #include "lib/ground.glsl"
 #include "lib/output.glsl"
 #include "lib/sway.glsl"
@@ -12,7 +12,8 @@ in vec3 world;
 in vec2 sway;
 in float gust;
 
-// Reflectance of the ground, as a pixel `width` metres wide shows it: rock where no grass will grow, else soil, moss and litter.
+// Reflectance of the ground, as a pixel `width` metres wide shows it: rock where no grass will
+// grow, else soil, moss and litter.
 vec3 soil_colour(vec2 xz, Ground ground, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     float tint = sward_patches(xz, anchor, ground.tint, width);
@@ -30,7 +31,8 @@ struct Canopy {
 };
 
 Canopy canopy_in_wind(vec2 uv, float wind) {
-    return Canopy(textureLod(far_appearance, vec3(uv, 2.0 * wind), 0.0), textureLod(far_appearance, vec3(uv, 2.0 * wind + 1.0), 0.0));
+    return Canopy(textureLod(far_appearance, vec3(uv, 2.0 * wind), 0.0),
+                  textureLod(far_appearance, vec3(uv, 2.0 * wind + 1.0), 0.0));
 }
 
 Canopy canopy_from_afar(vec3 to_eye, vec3 normal) {
@@ -54,14 +56,20 @@ void main() {
 
     float shade = sway.y; // of the grass over it
     if (has_tracks()) {   // which are finer than the vertices
-        shade = sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.focal_px)).y;
+        shade =
+            sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.focal_px)).y;
     }
-    vec3 soil_albedo = soil_colour(world.xz, ground, distance_m / frame.focal_px * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
+    vec3 soil_albedo = soil_colour(world.xz, ground,
+                                   distance_m / frame.focal_px *
+                                       max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
     float sun = sun_seen(world.xz, 0.0);
-    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(sun, shade)), soil_albedo, ground.normal, ground.density);
+    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(sun, shade)), soil_albedo, ground.normal,
+                           ground.density);
 
-    float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye), frame.far_bands[frame.far_levels - 1].outgoing);
-    left_shells *= frame.ground_takes_over; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
+    float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye),
+                                             frame.far_bands[frame.far_levels - 1].outgoing);
+    left_shells *= frame.ground_takes_over; // 0 where no tier hands its blades to the ground
+                                            // (--tiers blades, reference)
     Canopy canopy = Canopy(vec4(0.0), vec4(0.0));
     if (left_shells > 0.0) {
         canopy = canopy_from_afar(to_eye, ground.normal);
@@ -69,9 +77,11 @@ void main() {
     float coverage = 1.0 - pow(1.0 - min(canopy.sun.a, 0.999), ground.density * left_shells);
     // The table is of flat ground.
     float slope = dot(ground.normal, frame.light.to_sun);
-    float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
+    float relight = canopy_sun(frame.light, canopy.sky.a, slope) /
+                    max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
     vec3 grass = canopy.sun.rgb * (relight * sun) + canopy.sky.rgb;
-    grass *= sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.focal_px));
+    grass *= sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint,
+                                      distance_m / frame.focal_px));
 
     AirLight air = haze_of(from_eye);
     vec3 radiance = mix(soil, grass, coverage) * air.through + air.added;

@@ -29,11 +29,13 @@ private:
 /// The mask spread over the whole terrain, pixel for pixel.
 [[nodiscard]] scene::DensityMask spread_mask(Channel channel, const MaskTable& table);
 
-/// The mask where it belongs: over the part of the terrain that it covers, about as fine as the finer of its pixels and the
-/// terrain's posts. Each texel is the mean of the pixels under it, so that a road keeps its share of a texel that is wider; where
-/// pixels are the wider ones, densities are interpolated and classes keep their borders. Throws Error(kBadInput) naming `path`
-/// where it covers nothing of the terrain.
-[[nodiscard]] scene::DensityMask warp_mask(const Channel& channel, const MaskTable& table, const scene::Heightfield& ground,
+/// The mask where it belongs: over the part of the terrain that it covers, about as fine as the
+/// finer of its pixels and the terrain's posts. Each texel is the mean of the pixels under it, so
+/// that a road keeps its share of a texel that is wider; where pixels are the wider ones, densities
+/// are interpolated and classes keep their borders. Throws Error(kBadInput) naming `path` where it
+/// covers nothing of the terrain.
+[[nodiscard]] scene::DensityMask warp_mask(const Channel& channel, const MaskTable& table,
+                                           const scene::Heightfield& ground,
                                            const std::filesystem::path& path);
 
 } // namespace sward::assets

@@ -18,7 +18,8 @@ namespace sward::render {
 struct DrawPasses {
     DrawPasses(bool aov, bool block_shapes, bool surface)
         : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
-          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov, surface), screen(aov), meshes(aov) {}
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov, surface),
+          screen(aov), meshes(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;
     shells::FarPass shells, slices;

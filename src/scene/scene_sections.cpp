@@ -12,7 +12,7 @@ constexpr std::size_t kMostKeys = 10000;
 constexpr int kHighestClass = 65535; // 16-bit landcover
 constexpr int kMostBands = 256;
 
-constexpr int kMostSpheres = 10000;      // of one mesh
+constexpr int kMostSpheres = 10000; // of one mesh
 
 const std::vector<std::string> kObjectKinds = {"sphere", "mesh", "vehicle", "rotor"};
 

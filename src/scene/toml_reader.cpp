@@ -221,7 +221,8 @@ bool TableReader::name_or_none(const char* key, std::string& value) {
     const toml::node* node = find(key);
     if (!node)
         return false;
-    if (!node->is_string() || !(node->as_string()->get().empty() || is_name(node->as_string()->get())))
+    if (!node->is_string() ||
+        !(node->as_string()->get().empty() || is_name(node->as_string()->get())))
         throw wrong(full_name(key), *node, kNameRule);
     value = node->as_string()->get();
     return true;

@@ -15,7 +15,8 @@ std::array<float, 3> shares(int i, int fine) {
     if (fine % 2 == 0)
         return {0.5f, 0.5f, 0};
     const float whole = static_cast<float>(2 * n + 1);
-    return {static_cast<float>(n - i) / whole, static_cast<float>(n) / whole, static_cast<float>(i + 1) / whole};
+    return {static_cast<float>(n - i) / whole, static_cast<float>(n) / whole,
+            static_cast<float>(i + 1) / whole};
 }
 
 } // namespace
@@ -30,11 +31,14 @@ std::vector<float> next_mip(const std::vector<float>& texels, glm::ivec2& size) 
             float sum = 0;
             for (int v = 0; v < 3; ++v)
                 for (int u = 0; u < 3; ++u) {
-                    const int i = std::min(2 * x + u, size.x - 1), j = std::min(2 * y + v, size.y - 1);
+                    const int i = std::min(2 * x + u, size.x - 1),
+                              j = std::min(2 * y + v, size.y - 1);
                     sum += down[static_cast<std::size_t>(v)] * along[static_cast<std::size_t>(u)] *
-                           texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(i)];
+                           texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) +
+                                  static_cast<std::size_t>(i)];
                 }
-            mip[static_cast<std::size_t>(y) * static_cast<std::size_t>(half.x) + static_cast<std::size_t>(x)] = sum;
+            mip[static_cast<std::size_t>(y) * static_cast<std::size_t>(half.x) +
+                static_cast<std::size_t>(x)] = sum;
         }
     }
     size = half;
