@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: a posed blade. Out: its surface (J8): outline, fold along the middle, pixel-width correction.
 // SURFACE: a blade of a mesh.
-#include "shared/blade.h"
 #include "lib/frame.glsl"
+#include "shared/blade.h"
 #ifdef SURFACE
 #include "shared/surface_blade.h"
 uniform vec4 surface_shape;

@@ -5,10 +5,10 @@
 // leave the canopy and come to another.
 #include "lib/resolved.glsl"
 #include "lib/tiers.glsl"
+#include "shells/march_view.glsl"
 #include "shared/march_light.h"
 #include "shared/sward.h"
 #include "shared/tile_lie.h"
-#include "shells/march_view.glsl"
 #if defined(CREST) && !defined(SURFACE)
 #include "shells/crest.glsl"
 #endif

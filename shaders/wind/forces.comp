@@ -2,8 +2,8 @@
 // Consumes the forces that touch each tile. Produces velocities nearer to what they want
 // (methods.md W5, J4, C5), or with INFLOW the divergence that they bring. One invocation a cell,
 // forces in one order: the same bits on every run.
-#include "shared/wind_force.h"
 #include "wind/grid.glsl"
+#include "shared/wind_force.h"
 
 layout(local_size_x = WIND_TILE, local_size_y = WIND_TILE) in;
 

@@ -2,8 +2,8 @@
 // Consumes the obstacles that touch each tile. Produces the solid mask and the solids' velocity of
 // its cells (methods.md W2); cells of other tiles were cleared to air. A cell is what its centre
 // is; of several solids the last in the scene counts.
-#include "shared/wind_solid.h"
 #include "wind/grid.glsl"
+#include "shared/wind_solid.h"
 
 layout(local_size_x = WIND_TILE, local_size_y = WIND_TILE) in;
 
