@@ -35,6 +35,10 @@ const float kHorizon = 50000.0; // nobody sees grass beyond (m)
 const int kStretches =
     5; // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9; // of the way to the ground: what stands beyond is the ground
+const float kSpread = 0.6;   // of a pixel's length along the ground: its samples see ground so far
+                             // before its middle
+const float kFacetSlope = 1e-4, // the land as drawn may differ so much in slope from the land, for
+    kFacetSlopeMost = 0.15;     // a metre of distance; at most
 const float kBeside =
     1e-3; // of the distance: what is drawn of the ground may be so far from it (m a metre)
 const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent
@@ -135,6 +139,16 @@ float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half
 #endif
 }
 
+// So far along the ray what a sample shows is an object; what is farther is the ground, to which
+// the path comes by itself. Samples of one pixel see the ground as far apart as the pixel is long
+// on it: far away that is more than the ray's whole way through the canopy.
+float nearest_ground(Entry entry, MarchPath path, MarchPlan plan) {
+    float fall = -path.height.y;
+    float steeper = fall + min(kFacetSlope * entry.distance, kFacetSlopeMost);
+    float reach = min(path.height.x / max(steeper, 1e-4), kNever);
+    return kOnGround * reach - kSpread * plan.footprint / max(fall, 2e-3);
+}
+
 // The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the
 // path has come to its end. `radiance`: of what was seen of it.
 MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen,
@@ -148,7 +162,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     vec3 normal = normal_at(entry);
     float slope = dot(normal, frame.light.to_sun); // both in the world
     float steepness = march_steepness(plan, path.way.y);
-    float ground = kOnGround * ground_reach(path);
+    float ground = nearest_ground(entry, path, plan);
     vec4 ends = mix(scene - entry.distance, vec4(kNever),
                     greaterThan(scene - entry.distance, vec4(ground)));
     seen.grass = march_nothing();
