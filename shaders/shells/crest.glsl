@@ -11,7 +11,7 @@ const float kSamePlace =
     2.5; // ground that a pixel covers: within so many times that, its samples' entries are one
 const float kSameShare = 0.01;   // of the distance, likewise
 const float kMaybeValley = 1.03; // entries that are so much farther may lie beyond a valley
-const float kValley_px = 2.0;    // depth of one, in pixels
+const float kValley_px = 0.5;    // depth of one, in pixels
 
 // Distances along the ray at which the pixel's samples enter the canopy; kNever: they do not.
 vec4 sample_entries(View view, ivec2 pixel) {

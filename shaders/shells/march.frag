@@ -9,9 +9,6 @@
 #include "shared/march_light.h"
 #include "shared/sward.h"
 #include "shared/tile_lie.h"
-#if defined(CREST) && !defined(SURFACE)
-#include "shells/crest.glsl"
-#endif
 
 layout(binding = TEX_MARCH_DENSITY) uniform sampler2DArray densities;
 layout(binding = TEX_MARCH_FIBRES) uniform sampler2DArray fibres;
@@ -19,6 +16,9 @@ layout(binding = TEX_MARCH_CORRECTION) uniform sampler2DArray correction;
 layout(binding = TEX_MARCH_LIGHT) uniform sampler2DArray light_factors;
 uniform int kind;
 in vec2 ndc;
+#if defined(CREST) && !defined(SURFACE)
+#include "shells/crest_ray.glsl"
+#endif
 #ifdef COUNT
 layout(early_fragment_tests)
     in; // a shader that writes to memory would run for pixels of other kinds too
@@ -31,16 +31,13 @@ const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, 
 int steps_taken = 0, texels_read = kReadsAPixel;
 #endif
 
-const float kHorizon = 50000.0; // nobody sees grass beyond (m)
 const int kStretches =
     5; // of one ray through the canopy: over crests, and along ground that curves away
 const float kOnGround = 0.9; // of the way to the ground: what stands beyond is the ground
 const float kSpread = 0.6;   // of a pixel's length along the ground: its samples see ground so far
                              // before its middle
-const float kFacetSlope = 1e-4, // the land as drawn may differ so much in slope from the land, for
-    kFacetSlopeMost = 0.15;     // a metre of distance; at most
-const float kBeside =
-    1e-3; // of the distance: what is drawn of the ground may be so far from it (m a metre)
+const float kFacetSlope = 1e-4,  // the land as drawn may differ so much in slope from the land, for
+    kFacetSlopeMost = 0.15;      // a metre of distance; at most
 const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent
                                  // (no pixel differs by more than 3/255)
 const float kOtherDensity = 0.4; // of the correction's second factors
@@ -219,100 +216,6 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
                             fall * inversesqrt(fall * fall + level * level));
     return walk;
 }
-
-#if defined(CREST) && !defined(SURFACE)
-// Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else
-// kNever.
-float next_entry(View view, float from, float last, float canopy) {
-    const int kProbes = 20, kHalvings = 8;
-    float low = from, high = kNever;
-    float ratio = pow(max(last / from, 1.0001), 1.0 / float(kProbes));
-    float t = from;
-    for (int i = 0; i < kProbes && high >= kNever; ++i) {
-        t *= ratio;
-        vec3 at = frame.eye + view.way * t;
-        bool under = at.y - ground_at(at.xz) < canopy;
-        low = under ? low : t;
-        high = under ? t : high;
-    }
-    for (int i = 0; i < kHalvings && high < kNever; ++i) {
-        t = 0.5 * (low + high);
-        vec3 at = frame.eye + view.way * t;
-        bool under = at.y - ground_at(at.xz) < canopy;
-        low = under ? low : t;
-        high = under ? t : high;
-    }
-    return high;
-}
-
-// Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands
-// behind.
-Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene) {
-    Entry next = entry;
-    bool over_it = walk.layer >= kMarchLayers;
-    if (over_it &&
-        eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
-        Entry drawn = entry_from_above(view, ivec2(gl_FragCoord.xy));
-        if (drawn.distance > entry.distance + walk.s) {
-            return drawn;
-        }
-    }
-    next.height = over_it ? path.bend.w : march_height(path, walk.s);
-    next.distance = entry.distance + walk.s;
-    if (over_it) {
-        float last = min(scene, kHorizon);
-        float from = next.distance + 0.1;
-        bool ends_soon = last < from * (1.0 + kSameShare);
-        next.distance = ends_soon ? kNever : next_entry(view, from, last, next.height);
-        float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
-        if (next.distance >= kNever && last < kHorizon && over < next.height + kBeside * last) {
-            // It ends on ground that is drawn a little beside where it is looked up: through the
-            // grass there, falling by a half.
-            next.distance = max(last - 2.0 * next.height, from);
-            next.ground = ground_under(frame.eye.xz + view.way.xz * last);
-            next.ground.xy =
-                view.way.xz * ((view.way.y + 0.5) / max(dot(view.way.xz, view.way.xz), 1e-4));
-            return next;
-        }
-    }
-    next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
-    next.distance = walk.layer < 0 ? kNever : next.distance;
-    return next;
-}
-
-// A ray of some of the pixel's samples.
-struct Ray {
-    View view;
-    Entry entry;
-    vec4 members; // 1: these samples
-};
-
-// The ray of those samples that enter the canopy nearest.
-Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
-    Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
-    ray.members = members_of(view, entries, ray.entry.ground.xy);
-    ray.view = view_through(pixel, ray.members, ndc);
-    ray.entry.distance = dot(ray.members, vec4(1.0)) /
-                         dot(ray.members, 1.0 / entries); // of a plane that is the middle's
-    return ray;
-}
-
-// The ray to march after `ray`: of samples that have not entered yet (`entries`), else of the same
-// through what comes behind.
-Ray ray_after(ivec2 pixel, Ray ray, MarchPath path, MarchWalk walk, vec4 scene, vec4 entries) {
-    if (nearest_of(entries) >= kNever) {
-        vec4 behind = scene * ray.members;
-        ray.entry = entry_after(ray.view, ray.entry, path, walk,
-                                max(max(behind.x, behind.y), max(behind.z, behind.w)));
-        return ray;
-    }
-    Ray next = nearest_ray(pixel, view_of(pixel, ndc), entries);
-    next.members = walk.layer < 0 ? next.members
-                                  : max(next.members,
-                                        ray.members); // what came through goes on to the same place
-    return next;
-}
-#endif
 
 // Distances along the ray to what each sample shows.
 vec4 scene_of(View view, ivec2 pixel) {
