@@ -35,23 +35,11 @@ TimedFrame timed_frame(render::Renderer& renderer, const render::Moment& view,
     return frame;
 }
 
-void run_bench(const Options& options) {
-    if (!options.bench_json.empty())
-        require_place(options.bench_json);
-    const gl::HeadlessContext context;
-    BenchReport report;
-    const auto asked = [&](const char* suite) {
-        return options.bench_suite == "all" || options.bench_suite == suite;
-    };
-    if (asked("wind"))
-        bench_wind(report);
-    if (asked("tracks"))
-        bench_tracks(report);
-    if (asked("near"))
-        bench_near(report, options);
-    if (asked("far"))
-        bench_far(report, options);
+namespace {
 
+/// Prints the report, and writes it where the options ask for JSON; are all checks within their
+/// limits?
+bool write_report(const BenchReport& report, const Options& options) {
     using Json = nlohmann::ordered_json;
     Json rows = Json::array(), figures = Json::array(), checks = Json::array();
     for (const BenchRow& row : report.rows) {
@@ -96,6 +84,29 @@ void run_bench(const Options& options) {
         base::write_file_atomic(options.bench_json,
                                 json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
     }
+    return all;
+}
+
+} // namespace
+
+void run_bench(const Options& options) {
+    if (!options.bench_json.empty())
+        require_place(options.bench_json);
+    const gl::HeadlessContext context;
+    BenchReport report;
+    const auto asked = [&](const char* suite) {
+        return options.bench_suite == "all" || options.bench_suite == suite;
+    };
+    if (asked("wind"))
+        bench_wind(report);
+    if (asked("tracks"))
+        bench_tracks(report);
+    if (asked("near"))
+        bench_near(report, options);
+    if (asked("far"))
+        bench_far(report, options);
+
+    const bool all = write_report(report, options);
     if (!all)
         throw base::Error(base::ExitCode::kFailure,
                           fmt::format("bench {}: found a figure over its limit, expected none",

@@ -228,18 +228,8 @@ Atmosphere::Scattered Atmosphere::gather(const dvec3& way, const dvec3& to_sun) 
     return sum;
 }
 
-Atmosphere::Day Atmosphere::day(const dvec3& to_sun) const {
-    Day day;
-    shared::Air& air = day.air;
-    const double flat = std::sqrt(std::max(1 - to_sun.y * to_sun.y, 0.0));
-    const dvec3 level = flat > 1e-6 ? dvec3(to_sun.x, 0, to_sun.z) / flat : dvec3(1, 0, 0);
-    air.to_sun = glm::vec3(to_sun);
-    air.molecules_per_m = static_cast<float>(1 / kMolecules_m);
-    air.level_sun = glm::vec3(level);
-    air.haze_per_m = static_cast<float>(1 / kHaze_m);
-    air.molecules = glm::vec4(glm::vec3(kMolecules), 0);
-    air.haze = glm::vec4(glm::vec3(haze_extinction_), 0);
-    const dvec3 direct = kSun * sunlight(kEye_m, to_sun.y);
+// The sky by height over the horizon, towards the sun (`level`: its azimuth) and away from it.
+void Atmosphere::fill_rows(shared::Air& air, const dvec3& level, const dvec3& to_sun) const {
     for (int i = 0; i < shared::kSkyRows; ++i) {
         const double u = i / (shared::kSkyRows - 1.0), sine = u * u,
                      out = std::sqrt(1 - sine * sine);
@@ -254,6 +244,21 @@ Atmosphere::Day Atmosphere::day(const dvec3& to_sun) const {
         put(near.haze, away.haze, row.haze, row.haze_turn);
         put(near.many, away.many, row.many, row.many_turn);
     }
+}
+
+Atmosphere::Day Atmosphere::day(const dvec3& to_sun) const {
+    Day day;
+    shared::Air& air = day.air;
+    const double flat = std::sqrt(std::max(1 - to_sun.y * to_sun.y, 0.0));
+    const dvec3 level = flat > 1e-6 ? dvec3(to_sun.x, 0, to_sun.z) / flat : dvec3(1, 0, 0);
+    air.to_sun = glm::vec3(to_sun);
+    air.molecules_per_m = static_cast<float>(1 / kMolecules_m);
+    air.level_sun = glm::vec3(level);
+    air.haze_per_m = static_cast<float>(1 / kHaze_m);
+    air.molecules = glm::vec4(glm::vec3(kMolecules), 0);
+    air.haze = glm::vec4(glm::vec3(haze_extinction_), 0);
+    const dvec3 direct = kSun * sunlight(kEye_m, to_sun.y);
+    fill_rows(air, level, to_sun);
     // The sky's light on level ground, and what it is near the horizon.
     constexpr int kWays = 512;
     dvec3 from_sky(0), low(0);

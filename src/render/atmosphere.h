@@ -41,6 +41,7 @@ private:
     [[nodiscard]] glm::dvec3 many(double height_m, double sine) const;
     [[nodiscard]] glm::dvec3 bounce(double height_m, double sine) const;
     [[nodiscard]] Day day(const glm::dvec3& to_sun) const;
+    void fill_rows(shared::Air& air, const glm::dvec3& level, const glm::dvec3& to_sun) const;
 
     glm::dvec3 haze_scattering_, haze_extinction_; ///< 1/m on the ground
     std::vector<glm::dvec3> sunlight_, many_;

@@ -62,7 +62,6 @@ OVER = {
     "shaders/shells/march.frag:march()": 6,
     "src/app/arrow_panel.cpp:draw_point()": 6,
     "src/app/arrow_panel.cpp:edit_number()": 6,
-    "src/app/command_bench.cpp:run_bench": 66,
     "src/app/flow_overlay.cpp:draw_streak()": 6,
     "src/app/options.cpp": 446,
     "src/app/options.cpp:declare_render": 68,
@@ -74,7 +73,6 @@ OVER = {
     "src/grass/bc5.cpp:compress_block()": 6,
     "src/grass/bc5.cpp:decode_block()": 6,
     "src/grass/set_reader.cpp:read_angles()": 6,
-    "src/render/atmosphere.cpp:Atmosphere::day": 61,
     "src/terrain/terrain_pass.cpp:visible_blocks()": 6,
     "src/wind/fluid.cpp": 404,
     "tests/cli/geotiff.py:geotiff": 86,
@@ -131,7 +129,6 @@ OVER = {
     "texgen/cli/options.cpp": 421,
     "texgen/export/export_textures.cpp:write_variant()": 6,
     "texgen/far/march_fit.cpp": 440,
-    "texgen/preset/preset_check.cpp:check_preset": 61,
 }
 
 

@@ -21,6 +21,26 @@ void report_placing(const std::vector<double>& seen, double canopy_m, int layers
                     1000 * placing_error(seen, even_layers(canopy_m, layers))));
 }
 
+/// The far field's images of the patch, and what corrects them.
+grass::FarMedium bake_march(const Preset& preset, const BakeOptions& options, const Patch& patch,
+                            float canopy_m) {
+    const HeightCaster truth = cast_blades(patch, canopy_m);
+    MarchBuilder builder(preset.side_m, canopy_m, patch.variants(),
+                         heights_met(truth, preset.side_m, canopy_m));
+    {
+        base::Progress progress("the march's images", static_cast<std::size_t>(patch.variants()));
+        for (int v = 0; v < patch.variants(); ++v) {
+            add_blades(patch, v, builder);
+            progress.advance();
+        }
+    }
+    MarchData data = builder.finish(patch.looks);
+    fit_slopes(patch, static_cast<int>(preset.far_rays), options.threads, data.medium);
+    grass::FarMedium march = pack_march(data);
+    march.correction = fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
+    return march;
+}
+
 } // namespace
 
 grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
@@ -65,22 +85,7 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     }
     {
         const StepTimer timer("march");
-        const HeightCaster truth = cast_blades(patch, set.canopy_m);
-        MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(),
-                             heights_met(truth, preset.side_m, set.canopy_m));
-        {
-            base::Progress progress("the march's images",
-                                    static_cast<std::size_t>(patch.variants()));
-            for (int v = 0; v < patch.variants(); ++v) {
-                add_blades(patch, v, builder);
-                progress.advance();
-            }
-        }
-        MarchData data = builder.finish(patch.looks);
-        fit_slopes(patch, static_cast<int>(preset.far_rays), options.threads, data.medium);
-        set.march = pack_march(data);
-        set.march.correction =
-            fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
+        set.march = bake_march(preset, options, patch, set.canopy_m);
     }
     {
         const StepTimer timer("far table");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <ranges>
 
@@ -46,11 +47,35 @@ double species_reach(const Species& species) {
            species.width_m.high / 2; // 2 %: a Bezier of that length is a little straighter
 }
 
+using Refuse = std::function<void(ExitCode, std::string_view, const std::string& found,
+                                  const std::string& expected)>;
+
+/// Arrays of textures within what is allowed.
+void check_arrays(const Preset& preset, const Refuse& refuse) {
+    const double planes = static_cast<double>(preset.variants * shared::kPlanes);
+    const double size = static_cast<double>(preset.size);
+    const double layer_images =
+        planes *
+        static_cast<double>(height_coding(preset) == shared::kHeightNone ? preset.layers : 1);
+    const double slice_images = planes * 2 * static_cast<double>(preset.slices);
+    const double rows = preset.longest_m() / preset.side_m * size + 4;
+    const double bytes =
+        std::max(array_bytes(size, size, layer_images), array_bytes(size, rows, slice_images));
+    if (bytes > kMaxArrayBytes)
+        refuse(ExitCode::kOverLimit, "texture",
+               fmt::format("an array of {:.0f} MiB", bytes / (1 << 20)),
+               "at most 1024 MiB: fewer texels, layers, slices or variants");
+    if (std::max(layer_images, slice_images) > kMaxArrayLayers)
+        refuse(ExitCode::kOverLimit, "texture",
+               fmt::format("{:.0f} images in an array", std::max(layer_images, slice_images)),
+               fmt::format("at most {:.0f}: fewer layers, slices or variants", kMaxArrayLayers));
+}
+
 } // namespace
 
 void check_preset(const Preset& preset, const fs::path& origin) {
-    const auto refuse = [&](ExitCode code, std::string_view what, const std::string& found,
-                            const std::string& expected) {
+    const Refuse refuse = [&](ExitCode code, std::string_view what, const std::string& found,
+                              const std::string& expected) {
         throw base::input_error(code, origin, 0, what, found, expected);
     };
     if (!std::has_single_bit(static_cast<std::uint64_t>(preset.size)))
@@ -91,23 +116,7 @@ void check_preset(const Preset& preset, const fs::path& origin) {
                 fmt::format(
                     "less than {:.2f} m: tufts and the reach of the blades must leave an interior",
                     0.45 * preset.side_m - border_width(preset)));
-    const double planes = static_cast<double>(preset.variants * shared::kPlanes);
-    const double size = static_cast<double>(preset.size);
-    const double layer_images =
-        planes *
-        static_cast<double>(height_coding(preset) == shared::kHeightNone ? preset.layers : 1);
-    const double slice_images = planes * 2 * static_cast<double>(preset.slices);
-    const double rows = preset.longest_m() / preset.side_m * size + 4;
-    const double bytes =
-        std::max(array_bytes(size, size, layer_images), array_bytes(size, rows, slice_images));
-    if (bytes > kMaxArrayBytes)
-        refuse(ExitCode::kOverLimit, "texture",
-               fmt::format("an array of {:.0f} MiB", bytes / (1 << 20)),
-               "at most 1024 MiB: fewer texels, layers, slices or variants");
-    if (std::max(layer_images, slice_images) > kMaxArrayLayers)
-        refuse(ExitCode::kOverLimit, "texture",
-               fmt::format("{:.0f} images in an array", std::max(layer_images, slice_images)),
-               fmt::format("at most {:.0f}: fewer layers, slices or variants", kMaxArrayLayers));
+    check_arrays(preset, refuse);
 }
 
 double reach_bound(const Preset& preset) {
