@@ -735,6 +735,14 @@ TEST_F(RawElevation, ReadsPostsBesideTheirHeader) {
     EXPECT_EQ(field.extent_m(), glm::dvec2(4, 0.5));
 }
 
+TEST_F(RawElevation, FillsVoids) {
+    for (const float nothing : {NAN, -32768.0f, -9999.0f, -3.4028235e38f}) {
+        write(R"({"width": 3, "height": 2, "spacing_m": [1, 1]})", {4, 4, 4, 4, nothing, 4});
+        EXPECT_EQ(read_raw_elevation(dir_ / "hill.raw").metres, std::vector<float>(6, 4.0f))
+            << nothing;
+    }
+}
+
 TEST_F(RawElevation, RefusesWhatDoesNotFit) {
     const std::string good = R"({"width": 2, "height": 2, "spacing_m": [1, 1]})";
     const auto holds = [](const std::string& message, const char* part) {
@@ -742,9 +750,10 @@ TEST_F(RawElevation, RefusesWhatDoesNotFit) {
     };
     holds(error(good, {1, 2, 3}),
           "hill.raw: size of the file: found 12 bytes, expected 16 bytes for 2 x 2 posts");
-    holds(error(good, {1, 2, NAN, 4}),
-          "hill.raw: height at column 0, row 1: found nan, expected a finite number");
+    holds(error(good, {1, 2, 2e5f, 4}),
+          "hill.raw: height at column 0, row 1: found 200000 m, expected -100000 to 100000 m");
     holds(error(good, {1, INFINITY, 3, 4}), "height at column 1, row 0: found inf");
+    holds(error(good, {NAN, NAN, NAN, NAN}), "hill.raw: no elevation: found voids only");
     holds(error("{", {}), "hill.json: not valid JSON");
     holds(error("[]", {}), "hill.json: header: found array, expected a JSON object");
     holds(error(std::string(60000, '['), {}), "hill.json: not valid JSON");
