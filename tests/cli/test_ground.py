@@ -5,7 +5,6 @@ latitude and longitude."""
 import json
 import re
 import struct
-import zlib
 
 import numpy
 import OpenEXR
@@ -346,37 +345,6 @@ class Ground(CliCase):
                 )
         geotiff(self.dir / "mask.tif", 33, 33, lambda i, j: 200, "B", **place, scale=0.01)
         self.refuse(3, ["mask.tif", "0 to 1"], "info", "scene.toml")
-
-    def test_an_index_without_a_colour(self):
-        """A palette that ends before the picture's indices do is broken, not bare ground; classes
-        need no colours."""
-
-        def chunk(kind, data):
-            sum_ = struct.pack(">I", zlib.crc32(kind + data))
-            return struct.pack(">I", len(data)) + kind + data + sum_
-
-        geotiff(
-            self.dir / "height.tif",
-            33,
-            33,
-            lambda i, j: 100,
-            epsg=UTM32,
-            affine=(10, 0, 500000, 0, -10, 5500000),
-        )
-        head = struct.pack(">IIBBBBB", 4, 4, 8, 3, 0, 0, 0)
-        (self.dir / "mask.png").write_bytes(
-            b"\x89PNG\r\n\x1a\n"
-            + chunk(b"IHDR", head)
-            + chunk(b"PLTE", bytes([255, 0, 0, 0, 0, 0]))
-            + chunk(b"IDAT", zlib.compress(b"\0\0\1\1\1" * 3 + b"\0\0\1\2\1"))
-            + chunk(b"IEND", b"")
-        )
-        self.terrain('mask = "mask.png"')
-        self.refuse(
-            3, ["mask.png", "column 2, row 3", "index 2", "2 colours"], "info", "scene.toml"
-        )
-        self.terrain('mask = "mask.png"\n[terrain.classes]\n2 = 1.0')
-        self.assertIn("6.250 %", self.info()["class 2"])
 
     def test_a_refusal_is_one_line(self):
         """A warning about what is refused a moment later is dropped, and a library's message is not
