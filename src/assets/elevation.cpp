@@ -16,6 +16,7 @@
 #include "base/held_warnings.h"
 #include "base/log.h"
 #include "base/room.h"
+#include "scene/bare_void.h"
 
 namespace sward::assets {
 namespace {
@@ -85,7 +86,7 @@ scene::Heightfield from_picture(const scene::TerrainSpec& spec) {
     if (channel.full_scale == 0)
         std::replace_if(
             channel.values.begin(), channel.values.end(),
-            [](float value) { return is_bare_void(value, false); },
+            [](float value) { return scene::is_bare_void(value, false); },
             std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (std::abs(channel.values[i]) > 1e5f) // NaN: a void

@@ -50,19 +50,27 @@ void require_real(GDALRasterBandH band, const std::filesystem::path& path) {
 }
 
 /// Indices to the red of their colours, unless they are classes; a colour of alpha 0 is no value,
-/// as a pixel's alpha is.
-void look_up(GDALColorTableH table, bool classes, std::vector<float>& values) {
+/// as a pixel's alpha is. An index that has no colour is a broken picture's.
+void look_up(GDALColorTableH table, bool classes, const std::filesystem::path& path,
+             Channel& channel) {
     const int count = GDALGetColorEntryCount(table);
-    for (float& value : values) {
+    for (std::size_t i = 0; i < channel.values.size(); ++i) {
+        float& value = channel.values[i];
         if (std::isnan(value))
             continue;
         const GDALColorEntry* colour = value >= 0 && value < static_cast<float>(count)
                                            ? GDALGetColorEntry(table, static_cast<int>(value))
                                            : nullptr;
+        if (!colour && !classes)
+            throw bad(
+                path,
+                fmt::format("pixel at column {}, row {}", i % channel.width, i / channel.width),
+                fmt::format("index {}", value),
+                fmt::format("one of the palette's {} colours", count));
         if (colour && colour->c4 == 0)
             value = std::numeric_limits<float>::quiet_NaN();
         else if (!classes)
-            value = colour ? colour->c1 : 0.0f;
+            value = colour->c1;
     }
 }
 
@@ -97,7 +105,7 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
         if (valid[i] == 0)
             channel.values[i] = std::numeric_limits<float>::quiet_NaN();
     if (GDALColorTableH table = GDALGetRasterColorTable(band)) {
-        look_up(table, classes, channel.values);
+        look_up(table, classes, path, channel);
         channel.full_scale = classes ? 0 : 255;
     }
     std::array<double, 6> affine{};

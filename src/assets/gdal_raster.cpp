@@ -15,6 +15,7 @@
 #include "assets/units.h"
 #include "base/error.h"
 #include "base/room.h"
+#include "scene/bare_void.h"
 
 namespace sward::assets {
 namespace {
@@ -62,7 +63,7 @@ void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std
         float& value = raster.values[i];
         // Scaled, -32000 may be a height.
         const bool no_height = (!valid.empty() && valid[i] == 0) || std::isnan(value) ||
-                               (plain && is_bare_void(value, has_nodata != 0));
+                               (plain && scene::is_bare_void(value, has_nodata != 0));
         const double metres = (double(value) * scale + offset) * unit;
         if (!no_height && !(std::abs(metres) <= kHighest_m))
             throw bad(
@@ -109,12 +110,6 @@ Raster read_gdal_raster(const fs::path& path, int band) {
     raster.placement = place_raster(dataset.get(), path, nullptr);
     raster.bare_spacing_m = bare_spacing(dataset.get());
     return raster;
-}
-
-bool is_bare_void(float value, bool declared) {
-    return std::isnan(value) || scene::is_void(value) ||
-           (std::isfinite(value) && std::abs(value) >= 3.4e38f) ||
-           (!declared && (value == -9999 || value == -99999 || value == -2147483648.0f));
 }
 
 std::string gdal_versions() {

@@ -29,11 +29,6 @@ struct Raster {
 /// reference to another place. Throws base::Error: kIo, kBadInput, kOverLimit.
 [[nodiscard]] Raster read_gdal_raster(const std::filesystem::path& path, int band);
 
-/// What the writers of voids leave undeclared, in values that are metres already: the codes of the
-/// SRTM and the USGS, the largest floats, NaN, and where the file names no number (`declared`)
-/// -9999, -99999 and the least integer.
-[[nodiscard]] bool is_bare_void(float value, bool declared);
-
 /// Versions of GDAL and PROJ.
 [[nodiscard]] std::string gdal_versions();
 

@@ -14,6 +14,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "scene/bare_void.h"
 
 namespace sward::scene {
 namespace {
@@ -115,6 +116,12 @@ std::size_t fill_voids(int width, int height, std::vector<float>& metres) {
 
 bool is_void(double value) {
     return value == -32768 || value == -32767 || value == -32000;
+}
+
+bool is_bare_void(float value, bool declared) {
+    return std::isnan(value) || is_void(value) ||
+           (std::isfinite(value) && std::abs(value) >= 3.4e38f) ||
+           (!declared && (value == -9999 || value == -99999 || value == -2147483648.0f));
 }
 
 glm::dvec2 linear_place(const Georeference& frame, double latitude_deg, double longitude_deg) {

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "scene/bare_void.h"
 #include "scene/heightfield.h"
 
 namespace sward::scene {
@@ -19,6 +20,7 @@ using nlohmann::json;
 constexpr std::uint64_t kHeaderLimit = 65536;
 constexpr int kMostSide = 16384;
 constexpr std::uint64_t kMostPosts = std::uint64_t{1} << 28;
+constexpr double kHighest_m = 1e5; // as of any other elevation
 constexpr double kLeastSpacing_m = 0.001, kMostSpacing_m = 1e5;
 const std::vector<std::string> kKeys = {"width", "height", "spacing_m"};
 
@@ -90,13 +92,19 @@ Heightfield read_raw_elevation(const std::filesystem::path& path) {
         std::uint32_t word = 0;
         for (std::size_t b = 0; b < 4; ++b)
             word |= std::to_integer<std::uint32_t>(bytes[4 * i + b]) << (8 * b);
-        field.metres[i] = std::bit_cast<float>(word);
-        if (!std::isfinite(field.metres[i]))
+        const auto value = std::bit_cast<float>(word);
+        const bool no_height = is_bare_void(value, false);
+        if (!no_height && !(std::abs(value) <= kHighest_m))
             throw base::input_error(
                 base::ExitCode::kBadInput, path, 0,
                 fmt::format("height at column {}, row {}", i % field.width, i / field.width),
-                fmt::format("{}", field.metres[i]), "a finite number");
+                fmt::format("{} m", value), fmt::format("-{0} to {0} m", kHighest_m));
+        field.metres[i] = no_height ? NAN : value;
     }
+    fill_voids(field.width, field.height, field.metres);
+    if (std::isnan(field.metres.front())) // one left over means that all are
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "no elevation", "voids only",
+                                "heights");
     return field;
 }
 

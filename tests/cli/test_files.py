@@ -102,7 +102,7 @@ class Files(CliCase):
         for keep in (0, 1, len(posts) // 2, len(posts) - 1):
             (self.dir / "height.raw").write_bytes(posts[:keep])
             self.refuse_scene(3, ["height.raw", f"{keep} bytes" if keep else "empty"])
-        for value in ("nan", "inf", "-inf"):
+        for value in ("1e30", "inf", "-inf"):
             (self.dir / "height.raw").write_bytes(
                 posts[:40] + struct.pack("<f", float(value)) + posts[44:]
             )

@@ -125,7 +125,6 @@ OVER = {
     "tests/unit/wind_sources_test.cpp": 509,
     "texgen/bake/bake.cpp:bake_set": 76,
     "texgen/bake/preview.cpp:top_view()": 6,
-    "texgen/cli/dry_run.cpp:dry_run": 61,
     "texgen/cli/options.cpp": 421,
     "texgen/export/export_textures.cpp:write_variant()": 6,
     "texgen/far/march_fit.cpp": 440,

@@ -232,6 +232,36 @@ TEST(Seam, AVolumeBecomesPeriodicAndKeepsItsVoxelsTogether) {
                     std::tie(done.at[i].y, done.at[i].z, done.at[i].x));
 }
 
+/// A volume that repeats: single voxels at random, three times as many near the joints.
+Volume speckled_volume(int side) {
+    Volume volume;
+    volume.voxel_m = 0.01;
+    volume.cells = {side, 8, side};
+    const auto dense = [&](int x) { return x < 4 || x >= side - 4; };
+    for (int y = 0; y < 8; ++y)
+        for (int z = 0; z < side; ++z)
+            for (int x = 0; x < side; ++x) {
+                const auto number = static_cast<std::uint64_t>((y * side + z) * side + x);
+                if (base::hash_unit(9, 0, number) < (dense(x) || dense(z) ? 0.09 : 0.03)) {
+                    volume.at.push_back({static_cast<std::uint16_t>(x),
+                                         static_cast<std::uint16_t>(y),
+                                         static_cast<std::uint16_t>(z)});
+                    volume.density.push_back(1);
+                }
+            }
+    return volume;
+}
+
+TEST(Seam, MuchGrassBesideAJointIsNoJoint) {
+    const Volume volume = speckled_volume(96);
+    std::vector<glm::ivec3> at;
+    for (const VoxelPlace& p : volume.at)
+        at.emplace_back(p.x, p.y, p.z);
+    const JointReport report = measure_cells({at, volume.density, 1, {0, 0, 0}, volume.cells, {}});
+    EXPECT_GT(report.joint, 1.5 * report.interior) << "the test's volume must step there";
+    EXPECT_LE(report.ratio(), kMostJointRatio);
+}
+
 TEST(Seam, AVdbFileKeepsItsGridsAndGetsItsPeriod) {
     const Volume volume = strand_volume(64, 8, 200);
     const std::vector<std::byte> bytes = encode_vdb(volume);

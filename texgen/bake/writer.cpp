@@ -163,10 +163,10 @@ std::vector<FileEntry> write_set(const grass::GrassSet& set, const Preset& prese
     std::uint64_t bytes = 0;
     for (const FileEntry& file : files)
         bytes += file.bytes;
-    base::log_info(
-        fmt::format("{}: {} blades in {} variants of {} m, canopy {:.3f} m, {} files, {:.1f} MiB",
-                    directory.string(), set.blades.size(), set.variants, preset.side_m,
-                    set.canopy_m, files.size() + 1, static_cast<double>(bytes) / (1 << 20)));
+    base::log_info(fmt::format(
+        "{}: {} blades in {} variants of {:.6g} m, canopy {:.3f} m, {} files, {:.1f} MiB",
+        directory.string(), set.blades.size(), set.variants, preset.side_m, set.canopy_m,
+        files.size() + 1, static_cast<double>(bytes) / (1 << 20)));
     return files;
 }
 

@@ -20,7 +20,7 @@
 namespace sward::texgen {
 namespace {
 
-JointReport joint_of(const Volume& volume) {
+JointReport measured_joint(const Volume& volume) {
     std::vector<glm::ivec3> at;
     at.reserve(volume.at.size());
     for (const VoxelPlace& p : volume.at)
@@ -88,7 +88,8 @@ int run_import(const ImportOptions& options) {
     const OutputParents parents(options.output);
     require_set_place(options.output);
     const Volume volume = load(options);
-    const JointReport joint = volume.cells.x == volume.cells.z ? joint_of(volume) : JointReport{};
+    const JointReport joint =
+        volume.cells.x == volume.cells.z ? measured_joint(volume) : JointReport{};
     if (joint.ratio() > kMostJointRatio)
         base::log_warning(fmt::format(
             "{}: the joint's gradient is {}: the volume is not periodic{}", options.input.string(),

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "grass/blades_glb.h"
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
+#include "shared/blade.h"
 #include "texgen/bake/far_level.h"
 #include "texgen/patch/canopy.h"
 #include "texgen/patch/patch_size.h"
@@ -48,39 +50,112 @@ std::uint64_t add_family(SetReport& r, const std::string& planes, const std::str
     return ids + shapes;
 }
 
-/// Bytes of the volume's voxels: a blade passes length / voxel + width / voxel voxels, and more
-/// askew; each holds one value of every grid. Measured on the shipped presets.
-std::uint64_t volume_bytes(const Patch& patch, double voxel_m) {
-    constexpr double kVoxelBytes = 16; // all grids, half floats, and their share of the tree
-    constexpr double kSlant = 1.35;
-    double voxels = 0;
-    for (const shared::BladeRecord& blade : patch.variant(0)) {
-        const double width = 2 * blade.v1.w * 2 / 3;
-        voxels += kSlant * blade.shape.y / voxel_m * (1 + width / voxel_m);
-    }
-    return static_cast<std::uint64_t>(voxels * kVoxelBytes);
-}
-
-/// Memory at the peak of a bake. The numbers of kAccount were measured on the meadow at 256, 512
-/// and 1024 texels (docs/texgen.md).
-struct Account {
-    double arrays = 0;  ///< bytes of all textures in memory
-    double largest = 0; ///< of the two largest arrays, which are packed at the same time
-    double shapes = 0;  ///< BC5 beside them
-    double blades = 0;
-    double scratch = 0; ///< of the workers
-    double volume = 0;
+/// What the volume takes. Its leaves are of 8 x 8 x 8 voxels.
+struct VolumeSize {
+    double voxels = 0; ///< each once for each blade in it
+    double leaves = 0;
+    /// The halves of all grids; of a leaf the masks of them. Measured on meadow and fur.
+    [[nodiscard]] double file_bytes() const { return 13.7 * voxels + 915 * leaves; }
 };
 
+/// The leaves that blades pass, by points along their middle and rims.
+class LeafCount {
+public:
+    LeafCount(double side_m, double canopy_m, double leaf_m)
+        : leaf_m_(leaf_m), side_(std::max(1, static_cast<int>(std::ceil(side_m / leaf_m - 1e-6)))),
+          rows_(1 + static_cast<int>(canopy_m / leaf_m)),
+          found_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_) *
+                 static_cast<std::size_t>(rows_)) {}
+
+    void add(const shared::BladeRecord& blade) {
+        const int steps = 1 + static_cast<int>(2 * static_cast<double>(blade.shape.y) / leaf_m_);
+        for (int i = 0; i <= steps; ++i) {
+            const float v = static_cast<float>(i) / static_cast<float>(steps);
+            const shared::vec3 at =
+                shared::blade_curve(shared::vec3(blade.v1), shared::vec3(blade.v2), v);
+            for (const float rim : {-1.0f, 0.0f, 1.0f}) {
+                const float across = rim * blade.v1.w * (1 - v * v);
+                mark({blade.root.x + at.x + across * std::cos(blade.shape.x), at.y,
+                      blade.root.y + at.z + across * std::sin(blade.shape.x)});
+            }
+        }
+    }
+    [[nodiscard]] double count() const {
+        return static_cast<double>(std::ranges::count(found_, true));
+    }
+
+private:
+    void mark(const glm::vec3& at) {
+        const auto round = [&](float metres) { // on the torus
+            const int i = static_cast<int>(std::floor(metres / leaf_m_)) % side_;
+            return static_cast<std::size_t>(i < 0 ? i + side_ : i);
+        };
+        const auto row =
+            static_cast<std::size_t>(std::clamp(static_cast<int>(at.y / leaf_m_), 0, rows_ - 1));
+        const auto side = static_cast<std::size_t>(side_);
+        found_[(row * side + round(at.z)) * side + round(at.x)] = true;
+    }
+
+    double leaf_m_;
+    int side_, rows_;
+    std::vector<bool> found_;
+};
+
+/// A blade passes length / voxel + width / voxel voxels, and more askew.
+VolumeSize volume_size(const Patch& patch, double voxel_m) {
+    constexpr double kSlant = 1.35;
+    LeafCount leaves(patch.side_m, canopy_height(patch), 8 * voxel_m);
+    VolumeSize size;
+    for (const shared::BladeRecord& blade : patch.variant(0)) {
+        const double width = 2 * blade.v1.w * 2 / 3;
+        size.voxels += kSlant * blade.shape.y / voxel_m * (1 + width / voxel_m);
+        leaves.add(blade);
+    }
+    size.leaves = leaves.count();
+    return size;
+}
+
+/// What is in memory at the peak of a bake, in bytes. The factors are sizes of the code's own
+/// structs and what was measured of meadow and fur (docs/texgen.md, Measured).
+struct Account {
+    double levels = 0;               ///< textures of the planes
+    double shapes = 0;               ///< BC5 beside them
+    double march = 0;                ///< textures of the march
+    double largest = 0;              ///< of the two largest arrays
+    double blades = 0, variants = 0; ///< counts
+    double rasters = 0;              ///< the workers'
+    VolumeSize volume;
+};
+
+/// While files are written: each worker packs an array, or one makes the volume.
+double writing_bytes(const Account& a, const BakeOptions& options, int threads) {
+    constexpr double kPackedShare = 1.3; // packed mips and the file's bytes, against the array
+    constexpr double kLeafBytes = 22e3;  // in memory: four grids of floats, two of three
+    constexpr double kVoxelBytes = 120;  // deposits and arrays, which grow by doubling
+    const auto packing = [&](int workers) {
+        return (options.compression == 0 ? 3 : kPackedShare) * a.largest * std::min(workers, 2) / 2;
+    };
+    if (!options.volume)
+        return packing(threads);
+    const double volume = std::max(a.volume.voxels * kVoxelBytes,
+                                   a.volume.leaves * kLeafBytes + 3 * a.volume.file_bytes());
+    return threads > 1 ? volume + packing(threads - 1) : std::max(volume, packing(1));
+}
+
 std::uint64_t peak_of(const Account& a, const BakeOptions& options) {
-    constexpr double kLibraries = 60e6;
-    constexpr double kBladeBytes = 3000; // outlines, segments in the rays' grids
-    constexpr double kPackedShare =
-        1.3; // packed mips, the file's bytes and what is read back, against the array
-    const double held = kLibraries + a.arrays + a.shapes + a.blades * kBladeBytes;
-    const double packing = options.compression == 0 ? 3 * a.largest : kPackedShare * a.largest;
-    const double volume = options.volume ? a.volume : 0;
-    return static_cast<std::uint64_t>(std::max(held + a.scratch, held + packing + volume));
+    constexpr double kLibraries = 137e6;
+    constexpr double kHoles = 107e6;                         // that the fit leaves in the heap
+    constexpr double kFieldBytes = 4500, kGridBytes = 1.1e6; // of a blade, of a variant, for rays
+    constexpr double kFields = 3;              // the march's: at rest, level ground, a slope
+    constexpr double kFloatsShare = 32.0 / 12; // its images as floats, over what is kept of them
+    constexpr double kFitBytes = 20e6;
+    constexpr double kBladeBytes = 1000; // records, outlines
+    const int threads = resolve_threads(options.threads);
+    const double held = kLibraries + a.levels + a.blades * kBladeBytes;
+    const double fitting = (1 + kFloatsShare) * a.march + kFitBytes +
+                           kFields * (a.blades * kFieldBytes + a.variants * kGridBytes);
+    const double writing = kHoles + a.march + a.shapes + writing_bytes(a, options, threads);
+    return static_cast<std::uint64_t>(held + std::max({a.rasters, fitting, writing}));
 }
 
 /// The far field's files; returns their bytes in memory and on the GPU.
@@ -139,14 +214,13 @@ SetReport dry_run(const Preset& preset, const BakeOptions& options) {
                           add_family(r, grass::slices_file(k), grass::slices_shape_file(k), slices,
                                      options.block);
         const auto both = static_cast<double>(bytes_of(layers) + bytes_of(slices));
-        account.arrays += both;
+        account.levels += both;
         account.shapes += options.block ? both / 4 : 0;
         account.largest = std::max(account.largest, both);
         r.gpu_bytes += level.gpu_bytes;
         r.levels.push_back(level);
     }
-    const double march = add_march(r);
-    account.arrays += march;
+    account.march = add_march(r);
     r.gpu_bytes += r.blades * sizeof(shared::BladeRecord);
     r.files.push_back(
         {grass::kBladesFile, 0,
@@ -154,17 +228,14 @@ SetReport dry_run(const Preset& preset, const BakeOptions& options) {
              .size(),
          ""});
     if (options.volume) {
-        const std::uint64_t bytes =
-            volume_bytes(patch, preset.side_m / static_cast<double>(preset.size));
-        r.files.push_back({grass::kVolumeFile, 0, bytes, ""});
-        account.volume = 30 * static_cast<double>(bytes); // the rasteriser's deposits
+        account.volume = volume_size(patch, preset.side_m / static_cast<double>(preset.size));
+        r.files.push_back(
+            {grass::kVolumeFile, 0, static_cast<std::uint64_t>(account.volume.file_bytes()), ""});
     }
     account.blades = static_cast<double>(r.blades);
+    account.variants = r.variants;
     const auto texels = static_cast<double>(preset.size * preset.size);
-    constexpr double kFloatsShare =
-        32.0 / 12; // the march's images as floats, over what is kept of them
-    account.scratch =
-        std::max(resolve_threads(options.threads) * texels * 60, kFloatsShare * march);
+    account.rasters = resolve_threads(options.threads) * texels * 60;
     r.peak_bytes = peak_of(account, options);
     return r;
 }

@@ -193,7 +193,7 @@ std::string report_text(const SetReport& r) {
     std::string text = row(r.path.empty() ? "set" : r.path + ":",
                            fmt::format(" grass set \"{}\", format {}, seed {}", r.name,
                                        grass::kSetFormatVersion, r.seed));
-    text += row("patch", fmt::format("{} m, {} variants, {} blades, {:.0f} a square metre",
+    text += row("patch", fmt::format("{:.6g} m, {} variants, {} blades, {:.0f} a square metre",
                                      r.side_m, r.variants, r.blades, r.density_per_m2));
     text += row("canopy", fmt::format("{:.3f} m", r.canopy_m));
     for (std::size_t i = 0; i < r.species.size(); ++i)

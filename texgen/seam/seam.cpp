@@ -82,6 +82,18 @@ std::vector<int> boundary(const std::vector<float>& cost, int width, int rows, L
     return path;
 }
 
+/// What a column's value is in the interior, all but the last: the median, or the largest where
+/// most have none, as of a few posts: a joint like the worst of them is none.
+double usual(std::vector<double> values) {
+    values.pop_back();
+    if (values.empty())
+        return 0;
+    const double most = *std::ranges::max_element(values);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle > 0 ? *middle : most;
+}
+
 /// What a column in which the larger wins costs, of the difference there: it holds more than either
 /// side does, and a wide band of it would be seen as one.
 constexpr float kLargerCost = 0.02f;
@@ -113,9 +125,25 @@ OverlapCost with_band(const OverlapCost& cost, int middle) {
 
 } // namespace
 
+double JointReport::ratio() const {
+    const auto over = [](double own, double other) {
+        return other > 0 ? own / other : own > 0 ? 1e9 : 0;
+    };
+    return std::min(over(joint, interior), over(joint_share, interior_share));
+}
+
 std::string JointReport::words() const {
     return interior > 0 ? fmt::format("{:.2f} times the interior's", ratio())
                         : fmt::format("{:.3g}, the interior has none", joint);
+}
+
+JointReport joint_of(const ColumnSteps& columns) {
+    if (columns.step.empty())
+        return {};
+    std::vector<double> shares(columns.step.size());
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        shares[i] = columns.content[i] > 0 ? columns.step[i] / columns.content[i] : 0;
+    return {columns.step.back(), usual(columns.step), shares.back(), usual(shares)};
 }
 
 Overlap find_overlap(const OverlapCost& cost, bool closed) {

@@ -52,16 +52,24 @@ struct SeamCut {
     [[nodiscard]] int of(int side, const std::filesystem::path& what) const;
 };
 
-/// Joints of a tiling against the interior.
-struct JointReport {
-    double joint = 0;    ///< mean gradient across the joint, the larger of both axes
-    double interior = 0; ///< median over the interior's columns and rows of the same mean gradient;
-                         ///< the largest where most have none
-    [[nodiscard]] std::string words() const; ///< "1.30 times the interior's"
-    [[nodiscard]] double ratio() const {
-        return interior > 0 ? joint / interior : joint > 0 ? 1e9 : 0;
-    }
+/// Steps from each column of a tiling to the next; the last is over the joint.
+struct ColumnSteps {
+    std::vector<double> step;    ///< mean difference of the two columns
+    std::vector<double> content; ///< what stands in both, in the same measure: never below the step
 };
+
+/// A joint of a tiling against the interior.
+struct JointReport {
+    double joint = 0;       ///< its step
+    double interior = 0;    ///< median of the interior's; the largest where most have none
+    double joint_share = 0; ///< the same of steps over content
+    double interior_share = 0;
+    [[nodiscard]] std::string words() const; ///< "1.30 times the interior's"
+    /// How much the joint stands out: the lesser of both measures. Steps are larger where more
+    /// grass happens to stand, and shares where next to none does: neither is an edge by itself.
+    [[nodiscard]] double ratio() const;
+};
+[[nodiscard]] JointReport joint_of(const ColumnSteps& columns);
 
 /// A joint is an edge where the tiling's texture visibly breaks (issue: at most 1.2 of the
 /// interior's median).

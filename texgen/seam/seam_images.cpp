@@ -3,6 +3,7 @@
 #include "texgen/seam/seam_images.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -35,6 +36,12 @@ struct View {
                             static_cast<double>(image.values[b + static_cast<std::size_t>(c)]));
         return sum;
     }
+    [[nodiscard]] double content(std::size_t i) const {
+        double sum = 0;
+        for (int c = 0; c < image.channels; ++c)
+            sum += std::abs(static_cast<double>(image.values[i + static_cast<std::size_t>(c)]));
+        return sum;
+    }
     /// What decides between two texels.
     [[nodiscard]] float key(std::size_t i) const {
         if (const int alpha = image.alpha(); alpha >= 0)
@@ -44,14 +51,18 @@ struct View {
     }
 };
 
-/// Mean difference of column u and the next, round the joint, for every u.
-std::vector<double> gradients(const View& view) {
-    std::vector<double> out(static_cast<std::size_t>(view.across()));
+/// Adds the steps from column u to the next, round the joint, for every u.
+void add_steps(const View& view, ColumnSteps& out) {
+    const auto count = static_cast<std::size_t>(view.across());
+    out.step.resize(count);
+    out.content.resize(count);
     for (int u = 0; u < view.across(); ++u)
-        for (int v = 0; v < view.along(); ++v)
-            out[static_cast<std::size_t>(u)] +=
-                view.difference(view.at(u, v), view.at((u + 1) % view.across(), v)) / view.along();
-    return out;
+        for (int v = 0; v < view.along(); ++v) {
+            const std::size_t here = view.at(u, v), next = view.at((u + 1) % view.across(), v);
+            out.step[static_cast<std::size_t>(u)] += view.difference(here, next) / view.along();
+            out.content[static_cast<std::size_t>(u)] +=
+                (view.content(here) + view.content(next)) / view.along();
+        }
 }
 
 OverlapCost cost_of(const LayerStack& stack, bool vertical, int cut) {
@@ -112,26 +123,14 @@ LayerStack along_axis(const LayerStack& stack, bool vertical, int cut, base::Pro
 } // namespace
 
 JointReport measure_stack(const LayerStack& stack) {
-    JointReport worst;
+    std::array<JointReport, 2> joints;
     for (const bool vertical : {false, true}) {
-        std::vector<double> all;
-        for (const LayerImage& image : stack.images) {
-            const std::vector<double> own = gradients({image, vertical});
-            all.resize(own.size());
-            for (std::size_t i = 0; i < own.size(); ++i)
-                all[i] += own[i];
-        }
-        const double joint = all.back();
-        all.pop_back();
-        if (all.empty())
-            continue;
-        const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-        std::ranges::nth_element(all, middle);
-        const JointReport own{joint, *middle};
-        if (vertical == false || own.ratio() > worst.ratio())
-            worst = own;
+        ColumnSteps steps;
+        for (const LayerImage& image : stack.images)
+            add_steps({image, vertical}, steps);
+        joints[vertical ? 1 : 0] = joint_of(steps);
     }
-    return worst;
+    return joints[0].ratio() >= joints[1].ratio() ? joints[0] : joints[1];
 }
 
 LayerStack seam_stack(const LayerStack& stack, const SeamCut& cut) {

@@ -17,14 +17,6 @@ struct Cell {
     float key = 0;
 };
 
-double median(std::vector<double> values) {
-    if (values.empty())
-        return 0;
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Sums along `up`, rows of the box's second level axis.
 std::vector<float> plan_of(std::span<const Cell> cells, const glm::ivec3& size, int u, int v) {
     std::vector<float> plan(static_cast<std::size_t>(size[u]) * static_cast<std::size_t>(size[v]));
@@ -34,41 +26,33 @@ std::vector<float> plan_of(std::span<const Cell> cells, const glm::ivec3& size, 
     return plan;
 }
 
-/// Mean difference of column x and the next, round the joint, for every x.
-std::vector<double> gradients(const std::vector<float>& plan, int width, int rows, bool across) {
+/// Steps from column x to the next, round the joint, for every x.
+ColumnSteps steps_of(const std::vector<float>& plan, int width, int rows, bool across) {
     const int count = across ? rows : width, along = across ? width : rows;
-    std::vector<double> out(static_cast<std::size_t>(count));
+    ColumnSteps out;
     for (int i = 0; i < count; ++i) {
         const int next = (i + 1) % count;
-        double sum = 0;
+        double step = 0, content = 0;
         for (int j = 0; j < along; ++j) {
-            const auto index = [&](int k) {
-                return static_cast<std::size_t>(across ? k : j) * static_cast<std::size_t>(width) +
-                       static_cast<std::size_t>(across ? j : k);
+            const auto value = [&](int k) {
+                return plan[static_cast<std::size_t>(across ? k : j) *
+                                static_cast<std::size_t>(width) +
+                            static_cast<std::size_t>(across ? j : k)];
             };
-            sum += std::abs(plan[index(next)] - plan[index(i)]);
+            step += std::abs(value(next) - value(i));
+            content += std::abs(value(next)) + std::abs(value(i));
         }
-        out[static_cast<std::size_t>(i)] = sum / along;
+        out.step.push_back(step / along);
+        out.content.push_back(content / along);
     }
     return out;
 }
 
 JointReport joints(std::span<const Cell> cells, const glm::ivec3& size, int u, int v) {
     const std::vector<float> plan = plan_of(cells, size, u, v);
-    JointReport report;
-    for (const bool across : {false, true}) {
-        std::vector<double> all = gradients(plan, size[u], size[v], across);
-        const double joint = all.back();
-        all.pop_back();
-        const double most = all.empty() ? 0 : *std::ranges::max_element(all);
-        const double middle = median(std::move(all));
-        const JointReport own{joint,
-                              middle > 0 ? middle : most}; // most columns of a few posts have none:
-                                                           // a joint like the worst of them is none
-        if (report.interior == 0 || own.ratio() > report.ratio())
-            report = own;
-    }
-    return report;
+    const JointReport x = joint_of(steps_of(plan, size[u], size[v], false)),
+                      y = joint_of(steps_of(plan, size[u], size[v], true));
+    return x.ratio() >= y.ratio() ? x : y;
 }
 
 /// Lays the last `cut` columns of `axis` over the first ones.
