@@ -209,6 +209,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"TrackWork", BIND_TRACK_WORK},
         {"TrackPrints", BIND_TRACK_PRINTS},
         {"TrackShown", BIND_TRACK_SHOWN},
+        {"TrackMaps", BIND_TRACK_MAPS},
 
         {"Records", BIND_PHYSICS_BLADES},
         {"Pages", BIND_PHYSICS_PAGES},
