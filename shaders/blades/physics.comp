@@ -117,7 +117,7 @@ void collide(BladeBody body, vec3 root, uvec2 list, inout vec3 v1, inout vec3 v2
     }
 }
 
-// Steps the blade; true while it moves or remembers.
+// Steps the blade; true while it moves or remembers. `wind`: that bends grouped ones there.
 bool step_blade(PhysicsRecord blade, vec3 root, vec2 wind, uvec2 list, uint at) {
     BladeBody body = physics_body(blade, root);
     vec4 state = states[at];
@@ -127,6 +127,11 @@ bool step_blade(PhysicsRecord blade, vec3 root, vec2 wind, uvec2 list, uint at) 
     }
     vec3 v2 = state_tip(body, state);
     float eta = state.w;
+#ifndef SURFACE
+    if (has_tracks()) {
+        wind = physics_wind(root.xz, body.response, min(eta, 1.0));
+    }
+#endif
     vec3 v1 = move_blade(rules, body, checked_wind(vec3(wind.x, 0.0, wind.y)), v2, eta);
     if (kMeets) {
         vec3 moved = v2;

@@ -61,17 +61,23 @@ vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
 #endif
 }
 
-// What bends living blades at a place: the wind, and where stems lie pressed what holds them there;
-// from it one that wakes begins. What springs back by itself they do by their own contacts.
-vec2 physics_wind(vec2 xz) {
+// What bends a living blade at a place: the wind, what lies there and holds it down, and the bend
+// that passes. Each blade by its own response: what presses asks not how stiff it is. Of the bend
+// `own` is left out, what a blade's own contacts stand for.
+vec2 physics_wind(vec2 xz, float response, float own) {
     vec2 wind = wind_of(step_wind, xz);
 #ifndef SURFACE
     if (has_tracks()) {
-        wind = sway_wind(wind, rules.response > 0.0 ? rules.response : frame.wind.response,
-                         vec2(0.0), sway_pressed(track_at(xz, 0.0)));
+        TrackSeen track = track_at(xz, 0.0);
+        wind = sway_wind(wind, response, track.theta * (1.0 - own), sway_pressed(track));
     }
 #endif
     return wind;
+}
+
+// The same for blades that begin, and for a patch as a whole: as grouped ones have it.
+vec2 physics_wind(vec2 xz) {
+    return physics_wind(xz, rules.response > 0.0 ? rules.response : frame.wind.response, 0.0);
 }
 
 BladeBody physics_body(PhysicsRecord blade, vec3 root) {

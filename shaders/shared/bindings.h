@@ -92,6 +92,7 @@
 #define BIND_TRACK_PRINTS 4 // TrackPrint[]: page by page
 #define BIND_TRACK_SHOWN                                                                           \
     5 // uint[]: kTrackWords a page: what lies pressed in its cells, then what coarser levels show
+#define BIND_TRACK_MAPS 6 // vec4[]: undersides of meshes (shared/track_map.h)
 
 // Texture units.
 #define TEX_CLIP_HEIGHT 0  // R32F array: height above the datum, a level a layer

@@ -33,16 +33,18 @@ struct TrackPrint {
     TrackPlace now;    // at the step's end
     TrackPlace before; // at its start
     float half_width_m;
-    float half_depth_m;               // or radius
-    float underside_m;                // its lowest height over the ground
-    float load;                       // share of its load, 0..1
-    int kind;                         // kPrint*
-    int unused_a, unused_b, unused_c; // to 64 bytes
+    float half_depth_m; // or radius
+    float underside_m;  // its lowest height over the ground; of a mesh its origin's
+    float load;         // share of its load, 0..1
+    int kind;           // kPrint*
+    int map;            // of a mesh: first texel of its underside (shared/track_map.h)
+    vec2 tilt;          // of a mesh: its rise over the ground to its right, behind it (m a metre)
 };
 SHARED_CONST int kPrintBox = 0;    // its underside is flat
 SHARED_CONST int kPrintSphere = 1; // half_depth_m: radius
 SHARED_CONST int kPrintWheel =
     2; // rolls along its own z; half_width_m: half of its width, half_depth_m: radius
+SHARED_CONST int kPrintMesh = 3; // as its underside says
 
 // A block that is stepped, or only pressed. 48 bytes.
 struct TrackBlock {

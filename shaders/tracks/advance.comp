@@ -7,6 +7,18 @@
 layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints {
     TrackPrint prints[];
 };
+layout(std430, binding = BIND_TRACK_MAPS) readonly buffer TrackMaps {
+    vec4 track_maps[];
+};
+
+#include "shared/track_map.h"
+
+TrackContact contact_of(TrackRules rules, TrackPrint print, vec2 middle) {
+    if (print.kind == kPrintMesh) {
+        return track_map_contact(rules, print, middle);
+    }
+    return track_contact(rules, print, middle);
+}
 
 void main() {
     TrackBlock block = blocks[gl_WorkGroupID.z];
@@ -21,7 +33,7 @@ void main() {
     TrackCell next = track_advance(cell_at(own), changes[own]);
 #endif
     for (int n = block.first_print; n < block.first_print + block.prints; ++n) {
-        TrackContact contact = track_contact(rules, prints[n], middle);
+        TrackContact contact = contact_of(rules, prints[n], middle);
         if (contact.touched == 1) {
             touched = true;
             pressed = track_pressed(rules, pressed, contact, prints[n].load);

@@ -33,6 +33,11 @@ void check_sphere(glm::dvec3 centre, double radius_m, const std::string& where) 
     }
 }
 
+/// Up to 45 degrees.
+bool upright(const glm::dmat4& frame) {
+    return frame[1].y > 0.7 * glm::length(glm::dvec3(frame[1]));
+}
+
 bool meets(const Box& box, glm::dvec2 low, glm::dvec2 high) {
     return box.low.x <= high.x && box.high.x >= low.x && box.low.z <= high.y && box.high.z >= low.y;
 }
@@ -120,6 +125,10 @@ Colliders::Colliders(const scene::Scene& scene,
     }
 }
 
+bool Colliders::is_mesh(const Body& body) {
+    return body.number != ~std::size_t{0} && body.object.kind != "sphere";
+}
+
 void Colliders::set_body(std::size_t object, const glm::dmat4& world_from_body, double time_s) {
     for (Body& body : bodies_) {
         if (body.number == object) {
@@ -176,10 +185,24 @@ glm::dvec3 Colliders::host_place(std::size_t n, double time_s) const {
     return glm::mix(before_[n].centre, now_[n].centre, share);
 }
 
-std::vector<MovingSphere> Colliders::at(double time_s, double step_s) const {
+std::vector<MovingMesh> Colliders::meshes_at(double time_s, double step_s) const {
+    std::vector<MovingMesh> out;
+    for (const Body& body : bodies_) {
+        const glm::dmat4 now = frame(body, time_s);
+        if (is_mesh(body) && upright(now)) {
+            out.push_back({body.number, now, frame(body, time_s - step_s)});
+        }
+    }
+    return out;
+}
+
+std::vector<MovingSphere> Colliders::spheres(double time_s, double step_s, bool of_meshes) const {
     std::vector<MovingSphere> out;
     for (const Body& body : bodies_) {
         const glm::dmat4 now = frame(body, time_s), before = frame(body, time_s - step_s);
+        if (!of_meshes && is_mesh(body) && upright(now)) {
+            continue;
+        }
         for (const glm::vec4& sphere : body.spheres) {
             const glm::dvec4 own(glm::vec3(sphere), 1);
             out.push_back({glm::dvec3(now * own), glm::dvec3(before * own), sphere.w});

@@ -27,6 +27,12 @@ struct MovingSphere {
     double radius_m = 0;
 };
 
+/// A mesh of the scene in a step: its own frame (x right, y up, z back) to the world.
+struct MovingMesh {
+    std::size_t object = 0; ///< by its place in the scene
+    glm::dmat4 now{1}, before{1};
+};
+
 /// A sphere that a host drives.
 struct HostSphere {
     glm::dvec3 centre{0}; ///< world metres, y above the datum
@@ -61,7 +67,15 @@ public:
     void set_body(std::size_t object, const glm::dmat4& world_from_body, double time_s);
 
     /// All of them in the step that ends at `time_s`.
-    [[nodiscard]] std::vector<MovingSphere> at(double time_s, double step_s) const;
+    [[nodiscard]] std::vector<MovingSphere> at(double time_s, double step_s) const {
+        return spheres(time_s, step_s, true);
+    }
+    /// Those of them that no mesh of meshes_at() stands for.
+    [[nodiscard]] std::vector<MovingSphere> balls_at(double time_s, double step_s) const {
+        return spheres(time_s, step_s, false);
+    }
+    /// The scene's meshes that grass feels and that stand more or less upright.
+    [[nodiscard]] std::vector<MovingMesh> meshes_at(double time_s, double step_s) const;
     /// Whether there may be any, at any time.
     [[nodiscard]] bool any() const { return !bodies_.empty() || !now_.empty(); }
 
@@ -76,6 +90,9 @@ private:
         std::size_t number = 0;       ///< of the object in its scene
         std::optional<Placed> placed; ///< by the host
     };
+    [[nodiscard]] static bool is_mesh(const Body& body); ///< of the scene
+    [[nodiscard]] std::vector<MovingSphere> spheres(double time_s, double step_s,
+                                                    bool of_meshes) const;
     /// Where a body's own frame is: x right, y up, z back, and its origin.
     [[nodiscard]] glm::dmat4 frame(const Body& body, double time_s) const;
     [[nodiscard]] glm::dvec3 host_place(std::size_t n, double time_s) const;

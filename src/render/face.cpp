@@ -159,6 +159,21 @@ glm::dvec2 Field::wind_at(double x, double z, double time_s) const {
     return faced([&] { return ready(inside_).wind.at(x, z, time_s); });
 }
 
+Passed Field::tracks_at(double x, double z) const {
+    return drawn([&] {
+        if (!std::isfinite(x) || !std::isfinite(z)) {
+            throw bad(fmt::format("tracks_at: found {}, {}, expected finite numbers", x, z));
+        }
+        const render::FieldState& state = ready(inside_);
+        if (!state.tracks) {
+            throw base::Error(base::ExitCode::kUsage,
+                              "tracks_at: found a scene without [tracks], expected one with it");
+        }
+        const tracks::Tracks::Sample sample = state.tracks->at(x, z);
+        return Passed{glm::dvec2(sample.theta), glm::dvec2(sample.pressed)};
+    });
+}
+
 glm::dvec3 eye_of(const Camera& camera) {
     return faced([&] { return render::lens_of(camera).eye; });
 }

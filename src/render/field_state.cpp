@@ -57,10 +57,43 @@ std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double ti
                                    double step_s) {
     std::vector<tracks::Ball> out;
     if (colliders.any()) {
-        for (const blades::MovingSphere& sphere : colliders.at(time_s, step_s)) {
+        for (const blades::MovingSphere& sphere : colliders.balls_at(time_s, step_s)) {
             out.push_back({sphere.centre, sphere.before, sphere.radius_m});
         }
     }
+    return out;
+}
+
+/// What touches the grass of tracks: balls, and the scene's meshes by their undersides. The
+/// colliders outlive it.
+tracks::Tracks::Inputs track_inputs(const World& world, const blades::Colliders& colliders,
+                                    tracks::Ground ground) {
+    tracks::Tracks::Inputs out{std::move(ground), [&](double time_s, double step_s) {
+                                   return balls_of(colliders, time_s, step_s);
+                               }};
+    std::map<std::filesystem::path, std::size_t> number; // of a mesh, which many may share
+    std::vector<std::size_t> mesh_of;                    // an object
+    for (const scene::ObjectSpec& object : world.scene.objects) {
+        mesh_of.push_back(out.meshes.size());
+        const auto mesh = world.meshes.find(object.mesh);
+        if (!object.collides || mesh == world.meshes.end()) {
+            continue;
+        }
+        const auto [entry, fresh] = number.emplace(object.mesh, out.meshes.size());
+        mesh_of.back() = entry->second;
+        if (fresh) {
+            out.meshes.push_back(&mesh->second);
+        }
+    }
+    out.bodies = [&colliders, mesh_of, count = out.meshes.size()](double time_s, double step_s) {
+        std::vector<tracks::Body> bodies;
+        for (const blades::MovingMesh& mesh : colliders.meshes_at(time_s, step_s)) {
+            if (mesh_of[mesh.object] < count) {
+                bodies.push_back({mesh_of[mesh.object], mesh.now, mesh.before});
+            }
+        }
+        return bodies;
+    };
     return out;
 }
 
@@ -97,10 +130,8 @@ FieldState::FieldState(World inputs)
     if (world.scene.tracks) {
         tracks = std::make_unique<tracks::Tracks>(
             world.scene, world.grass.canopy_m,
-            tracks::Tracks::Inputs{[this](double x, double z) { return surface.height(x, z); },
-                                   [this](double then_s, double step_s) {
-                                       return balls_of(colliders, then_s, step_s);
-                                   }});
+            track_inputs(world, colliders,
+                         [this](double x, double z) { return surface.height(x, z); }));
         if (!world.scene.tracks->mask.empty()) {
             const std::string name = base::printable(world.scene.tracks->mask.native());
             tracks->begin_with(

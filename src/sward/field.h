@@ -101,6 +101,16 @@ struct Body {
     glm::dmat4 world_from_body{1};
 };
 
+/// What has passed through the grass of a place, in a scene with [tracks] (docs/tracks.md): of the
+/// cell that holds it.
+struct Passed {
+    /// Bend that springs back, along world x (east) and z (south): its length is the share of a
+    /// right angle that a stem's tip is turned by, 0 to 1.
+    glm::dvec2 bend{0};
+    /// Stems that lie: along which way (east, south); the length is their share, 0 to 1.
+    glm::dvec2 pressed{0};
+};
+
 /// What a simulated frame may cost. The defaults keep it exact.
 struct SimulationLimits {
     bool living_blades =
@@ -169,6 +179,11 @@ public:
     /// Wind (m/s; east, south) at world x, z and a time near that of simulate(), as far as it has
     /// come back from the GPU: a frame or two late. Never waits.
     [[nodiscard]] glm::dvec2 wind_at(double x, double z, double time_s) const;
+    /// What has passed at world x, z, as of the last simulate(); zeros where nothing has. Where the
+    /// scene keeps no page, only what lies. Waits for the GPU: for a few places a frame. Throws
+    /// Error(kUsage) for a scene without [tracks], Error(kBadInput) for a number that is not
+    /// finite.
+    [[nodiscard]] Passed tracks_at(double x, double z) const;
 
 private:
     friend struct render::Access;

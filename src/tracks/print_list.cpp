@@ -10,8 +10,7 @@ namespace sward::tracks {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr double kFarthest_m = 1e7;   // of what is looked at
-constexpr double kMostReach_m = 1000; // of a print: what is larger is cut to it
+constexpr double kFarthest_m = 1e7; // of what is looked at
 
 bool finite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -36,6 +35,13 @@ Stand stand_of(const scene::TrackFoot& foot, const scene::Path& path, double tim
     return out;
 }
 
+/// Cosine and sine of the yaw of a frame.
+glm::vec2 heading_of(const glm::dmat4& frame) {
+    const glm::dvec2 right(frame[0].x, frame[0].z);
+    const double length = glm::length(right);
+    return length > 1e-6 ? glm::vec2(right / length) : glm::vec2(1, 0);
+}
+
 } // namespace
 
 shared::TrackPrint Print::from(glm::dvec2 corner) const {
@@ -47,6 +53,8 @@ shared::TrackPrint Print::from(glm::dvec2 corner) const {
     out.underside_m = shape.z;
     out.load = shape.w;
     out.kind = kind;
+    out.map = map;
+    out.tilt = tilt;
     return out;
 }
 
@@ -54,11 +62,18 @@ PrintList::PrintList(const scene::TrackSpec& spec, std::map<std::string, scene::
                      double canopy_m, Ground ground)
     : spec_(spec), paths_(std::move(paths)), canopy_m_(canopy_m), ground_(std::move(ground)) {}
 
-void PrintList::add(std::vector<Print>& out, Print print) const {
-    print.shape.z = std::max(print.shape.z, 0.0f);
+void PrintList::set_meshes(std::span<const scene::Mesh* const> meshes) {
+    undersides_.clear();
+    for (const scene::Mesh* mesh : meshes) {
+        undersides_.push_back(underside_of(*mesh, spec_.cell_m, canopy_m_, kMostReach_m));
+    }
+    maps_ = joined(undersides_);
+}
+
+void PrintList::add(std::vector<Print>& out, Print print, double reach_m) const {
     const double away = std::max({std::abs(print.now.x), std::abs(print.now.y),
                                   std::abs(print.before.x), std::abs(print.before.y)});
-    if (!(static_cast<double>(print.shape.z) < canopy_m_) || !(away < kFarthest_m)) {
+    if (!(away < kFarthest_m)) {
         return;
     }
     if (glm::distance(print.now, print.before) > kMostSweep_m) {
@@ -66,18 +81,63 @@ void PrintList::add(std::vector<Print>& out, Print print) const {
         print.before = print.now;
         print.turn_before = print.turn_now;
     }
-    print.shape.x = std::min(print.shape.x, static_cast<float>(kMostReach_m));
-    print.shape.y = std::min(print.shape.y, static_cast<float>(kMostReach_m));
-    const double reach = (print.kind == shared::kPrintSphere
-                              ? static_cast<double>(print.shape.y)
-                              : glm::length(glm::dvec2(print.shape.x, print.shape.y))) +
-                         2 * spec_.cell_m;
+    const double reach = std::min(reach_m, 2 * kMostReach_m) + 2 * spec_.cell_m;
     print.low = glm::min(print.now, print.before) - reach;
     print.high = glm::max(print.now, print.before) + reach;
     out.push_back(print);
 }
 
-std::vector<Print> PrintList::at(double time_s, double step_s, std::span<const Ball> balls) const {
+void PrintList::add_shape(std::vector<Print>& out, Print print) const {
+    print.shape.z = std::max(print.shape.z, 0.0f);
+    if (!(static_cast<double>(print.shape.z) < canopy_m_)) {
+        return;
+    }
+    print.shape.x = std::min(print.shape.x, static_cast<float>(kMostReach_m));
+    print.shape.y = std::min(print.shape.y, static_cast<float>(kMostReach_m));
+    add(out, print,
+        print.kind == shared::kPrintSphere ? static_cast<double>(print.shape.y)
+                                           : glm::length(glm::dvec2(print.shape.x, print.shape.y)));
+}
+
+/// The body's plane over the ground's, which is taken for even under it.
+void PrintList::add_body(std::vector<Print>& out, const Body& body) const {
+    const Underside& under = undersides_.at(body.mesh);
+    Print print;
+    print.kind = shared::kPrintMesh;
+    print.now = {body.now[3].x, body.now[3].z};
+    print.before = {body.before[3].x, body.before[3].z};
+    print.turn_now = heading_of(body.now);
+    print.turn_before = heading_of(body.before);
+    if (under.texels.empty() || !finite(glm::dvec3(body.now[3])) ||
+        !finite(glm::dvec3(body.before[3]))) {
+        return;
+    }
+    const glm::dvec2 right(print.turn_now), back(-right.y, right.x);
+    const glm::dvec2 middle = print.now + right * under.middle.x + back * under.middle.y;
+    const auto over = [&](glm::dvec2 own) {
+        const glm::dvec2 at = middle + right * own.x + back * own.y;
+        return ground_(at.x, at.y);
+    };
+    const glm::dvec2 half = under.half;
+    const glm::dvec2 slope((over({half.x, 0}) - over({-half.x, 0})) / (2 * half.x),
+                           (over({0, half.y}) - over({0, -half.y})) / (2 * half.y));
+    const glm::dvec2 tilt = glm::dvec2(body.now[0].y, body.now[2].y) - slope;
+    const double ground = over({0, 0}) - glm::dot(slope, under.middle);
+    double height = std::min(body.now[3].y, body.before[3].y) - ground;
+    // Its lowest corner, whatever the tilt, and no deeper in the ground than a canopy.
+    const double lowest = height + static_cast<double>(under.lowest_m) +
+                          glm::dot(tilt, under.middle) - glm::dot(glm::abs(tilt), half);
+    if (!(lowest < canopy_m_)) {
+        return;
+    }
+    height += std::max(-canopy_m_ - (height + static_cast<double>(under.lowest_m)), 0.0);
+    print.shape = glm::vec4(0, 0, height, 1);
+    print.tilt = glm::vec2(tilt);
+    print.map = maps_.first[body.mesh];
+    add(out, print, static_cast<double>(under.reach_m));
+}
+
+std::vector<Print> PrintList::at(double time_s, double step_s, const Touching& touching) const {
     std::vector<Print> out;
     for (const scene::TrackFoot& foot : spec_.feet) {
         const scene::Path& path = paths_.at(foot.path);
@@ -93,9 +153,9 @@ std::vector<Print> PrintList::at(double time_s, double step_s, std::span<const B
         print.shape = glm::vec4(glm::dvec4(0.5 * foot.size.x, box ? 0.5 * foot.size.y : foot.size.y,
                                            foot.height_m + std::min(now.height_m, before.height_m),
                                            foot.load));
-        add(out, print);
+        add_shape(out, print);
     }
-    for (const Ball& ball : balls) {
+    for (const Ball& ball : touching.balls) {
         if (!finite(ball.centre) || !finite(ball.before) || !(ball.radius_m > 0)) {
             continue;
         }
@@ -106,7 +166,10 @@ std::vector<Print> PrintList::at(double time_s, double step_s, std::span<const B
         print.before = {ball.before.x, ball.before.z};
         print.kind = shared::kPrintSphere;
         print.shape = glm::vec4(glm::dvec4(ball.radius_m, ball.radius_m, under - ball.radius_m, 1));
-        add(out, print);
+        add_shape(out, print);
+    }
+    for (const Body& body : touching.bodies) {
+        add_body(out, body);
     }
     return out;
 }

@@ -54,6 +54,8 @@ TrackPass::TrackPass(int most_pages, int most_blocks, int table_size)
              sizeof(glm::ivec4)) {
     glCreateTextures(GL_TEXTURE_BUFFER, 3, textures_);
     reserve(1, 1);
+    const glm::vec4 none(0);
+    set_maps({&none, 1});
 }
 
 TrackPass::~TrackPass() {
@@ -129,6 +131,11 @@ void set_rules(const gl::Program& program, const shared::TrackRules& rules) {
 
 } // namespace
 
+void TrackPass::set_maps(std::span<const glm::vec4> texels) {
+    maps_.reserve(texels.size_bytes());
+    maps_.upload(texels.data(), texels.size_bytes());
+}
+
 void TrackPass::step(const shared::TrackRules& rules, const Work& work) {
     prints_.reserve(std::max(work.prints.size(), std::size_t{1}) * sizeof(shared::TrackPrint));
     prints_.upload(work.prints.data(), work.prints.size() * sizeof(shared::TrackPrint));
@@ -138,6 +145,7 @@ void TrackPass::step(const shared::TrackRules& rules, const Work& work) {
         dispatch(program, entries, TRACK_GROUP);
     };
     prints_.bind_storage(BIND_TRACK_PRINTS);
+    maps_.bind_storage(BIND_TRACK_MAPS);
     if (!work.moving.empty()) {
         upload_work(work.moving);
         run(change_, work.moving.size());
@@ -232,7 +240,8 @@ glm::vec4 TrackPass::cell(int slot, int place, glm::ivec2 at) const {
 
 std::size_t TrackPass::bytes() const {
     std::size_t sum = 0;
-    for (const gl::Buffer* buffer : {&bends_, &changes_, &shown_, &table_, &work_, &prints_}) {
+    for (const gl::Buffer* buffer :
+         {&bends_, &changes_, &shown_, &table_, &work_, &prints_, &maps_}) {
         sum += buffer->bytes();
     }
     return sum;

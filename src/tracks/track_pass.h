@@ -26,6 +26,8 @@ public:
 
     /// Room for so many slots and places of blocks; what they hold stays.
     void reserve(int slots, int places);
+    /// Undersides that prints of meshes name, at least one texel (shared/track_map.h).
+    void set_maps(std::span<const glm::vec4> texels);
     struct Work {
         std::vector<shared::TrackBlock> moving,
             resting; ///< of those at rest only what lasts changes
@@ -65,7 +67,7 @@ private:
 
     int most_pages_, most_blocks_, table_size_, slots_ = 0, places_ = 0;
     gl::Program change_, advance_, press_, rebase_, show_;
-    gl::Buffer bends_, changes_, shown_, table_, work_, prints_;
+    gl::Buffer bends_, changes_, shown_, table_, work_, prints_, maps_;
     std::uint32_t textures_[3] = {0, 0, 0};
 };
 

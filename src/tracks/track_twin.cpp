@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tracks/track_twin.h"
 
+#include "shared/track_map.h"
 #include "shared/track_seen.h"
 
 namespace sward::tracks {
@@ -29,7 +30,10 @@ void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::Tr
             const glm::vec2 middle = rules.cell_m * (glm::vec2(x, z) + 0.5f);
             bool touched = false;
             for (const shared::TrackPrint& print : prints) {
-                const shared::TrackContact contact = shared::track_contact(rules, print, middle);
+                const shared::TrackContact contact =
+                    print.kind == shared::kPrintMesh
+                        ? shared::track_map_contact(maps.data(), rules, print, middle)
+                        : shared::track_contact(rules, print, middle);
                 if (contact.touched == 1) {
                     touched = true;
                     next = shared::track_bent(rules, next, contact, slope);

@@ -22,6 +22,7 @@ public:
     static constexpr std::size_t kCount = std::size_t{shared::kTrackCells} * shared::kTrackCells;
     std::vector<shared::TrackCell> cells; ///< row by row from the north-west
     std::vector<glm::vec2> pressed;
+    std::vector<glm::vec4> maps; ///< undersides of the prints that are meshes
 };
 
 } // namespace sward::tracks

@@ -18,6 +18,8 @@ constexpr double kStep_s = 1.0 / 60;             // shared::kTrackStep_s, in dou
 constexpr double kEpochs = shared::kTrackEpochs; // in the time that lies until 1/e
 constexpr double kNearEye_m = 1e4; // pages that the memory holds come back for an eye within
 
+constexpr double kFarthest_m = 1e7; // of what is asked for
+
 } // namespace
 
 shared::TrackRules rules_of(const scene::TrackSpec& spec, double canopy_m) {
@@ -54,7 +56,13 @@ Tracks::Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs)
       inputs_(std::move(inputs)), pages_(spec_.pages, spec_.cell_m * shared::kTrackCells),
       memory_(static_cast<std::size_t>(spec_.memory_mb * 1e6)),
       pass_(spec_.pages, spec_.pages * kMovingBlocksAPage, pages_.table_size()),
-      rules_(rules_of(spec_, canopy_m)), settle_steps_(steps_to_rest(rules_)) {}
+      rules_(rules_of(spec_, canopy_m)), settle_steps_(steps_to_rest(rules_)) {
+    if (!inputs_.meshes.empty()) {
+        prints_.set_meshes(inputs_.meshes);
+        pass_.set_maps(prints_.maps());
+        inputs_.meshes.clear();
+    }
+}
 
 void Tracks::forget() {
     pages_.clear();
@@ -118,13 +126,17 @@ void Tracks::follow_epoch(double time_s) {
                            static_cast<float>(spec_.lasting_s));
 }
 
+std::vector<Print> Tracks::prints_of(double time_s) const {
+    const auto balls = inputs_.balls ? inputs_.balls(time_s, kStep_s) : std::vector<Ball>{};
+    const auto bodies = inputs_.bodies ? inputs_.bodies(time_s, kStep_s) : std::vector<Body>{};
+    return prints_.at(time_s, kStep_s, {balls, bodies});
+}
+
 void Tracks::step(std::int64_t number, bool full) {
     const double then_s = static_cast<double>(number) * kStep_s;
     follow_epoch(then_s);
     settle(number);
-    const std::vector<Ball> balls =
-        inputs_.balls ? inputs_.balls(then_s, kStep_s) : std::vector<Ball>{};
-    const std::vector<Print> prints = prints_.at(then_s, kStep_s, balls);
+    const std::vector<Print> prints = prints_of(then_s);
     wake(prints, number, full);
     const TrackPass::Work work = work_of(prints, number);
     pass_.step(rules_, work);
@@ -293,18 +305,23 @@ shared::TrackField Tracks::field(glm::dvec2 anchor) const {
 }
 
 Tracks::Sample Tracks::at(double x, double z) const {
+    Sample sample;
+    if (!(std::max(std::abs(x), std::abs(z)) < kFarthest_m)) {
+        return sample;
+    }
     const PageKey key = pages_.key_at({x, z});
     const int slot = pages_.slot_of(key);
-    Sample sample;
+    const glm::ivec2 at =
+        glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0,
+                   shared::kTrackCells - 1);
     if (slot >= 0) {
-        const glm::ivec2 at =
-            glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0,
-                       shared::kTrackCells - 1);
         const Block& block = pages_.slots()[static_cast<std::size_t>(slot)]
                                  .blocks[static_cast<std::size_t>(shared::track_block_of(at))];
         const glm::vec4 cell = pass_.cell(slot, block.place, at);
         sample.theta = glm::vec2(cell);
         sample.pressed = glm::vec2(cell.z, cell.w) * rules_.left;
+    } else if (memory_.has(key)) {
+        sample.pressed = lying(key).at(static_cast<std::size_t>(at.y * shared::kTrackCells + at.x));
     }
     return sample;
 }

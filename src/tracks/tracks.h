@@ -24,9 +24,13 @@ class Tracks {
 public:
     /// Balls in the step that ends at a time.
     using Balls = std::function<std::vector<Ball>(double time_s, double step_s)>;
+    /// Meshes in it, by their number in Inputs::meshes.
+    using Bodies = std::function<std::vector<Body>(double time_s, double step_s)>;
     struct Inputs {
         Ground ground;
-        Balls balls; ///< may be null
+        Balls balls;                                 ///< may be null
+        Bodies bodies = {};                          ///< likewise
+        std::vector<const scene::Mesh*> meshes = {}; ///< read by the constructor alone
     };
     /// The scene has `tracks`. `canopy_m`: what does not come below it touches nothing.
     Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs);
@@ -43,7 +47,8 @@ public:
     struct Sample {
         glm::vec2 theta{0}, pressed{0};
     };
-    /// The cell at world x, z. Waits for the GPU.
+    /// The cell at world x, z; of a page out of the pool what lies, not what bends. Waits for the
+    /// GPU.
     [[nodiscard]] Sample at(double x, double z) const;
 
     /// What lies, as a picture: channels pressed.X and pressed.Y over the pages that hold some, a
@@ -94,6 +99,7 @@ private:
     void bring_back();
     void show();
     [[nodiscard]] std::vector<glm::vec2> lying(PageKey key) const;
+    [[nodiscard]] std::vector<Print> prints_of(double time_s) const;
 
     scene::TrackSpec spec_;
     PrintList prints_;

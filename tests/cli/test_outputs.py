@@ -7,7 +7,19 @@ import os
 import resource
 
 import sward_cli
-from sward_cli import CliCase, SIZE
+from sward_cli import CliCase, SCENE, SIZE
+
+
+TRACKS = (
+    SCENE
+    + """
+[tracks]
+[[tracks.foot]]
+path = "roll"
+box = [0, 0, 1.5, 1]
+height_m = -2
+"""
+)
 
 
 class Outputs(CliCase):
@@ -124,6 +136,27 @@ class Outputs(CliCase):
             self.assertEqual(len(result.err.splitlines()), 1, result.err)
             self.assertIn(name, result.err)
             self.assertEqual(sward_cli.snapshot(self.dir), before)
+
+    def test_full_disk_keeps_the_old_tracks(self):
+        """Yesterday's tracks stay where today's found no room: the picture of four pixels does."""
+
+        def small():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (600, 600))
+
+        self.scene(TRACKS)
+        arguments = ("--size", "2x2", "--samples", "1", "--time", "0.5", "--save-tracks", "t.exr")
+        self.assert_done(self.render(*arguments))
+        before = (self.dir / "t.exr").read_bytes()
+        self.assertGreater(len(before), 600)
+        (self.dir / "out.png").unlink()
+        files = sward_cli.snapshot(self.dir)
+        result = self.render(*arguments, limits=small, env=self.own_shaders())
+        self.assertEqual(result.code, 5, result.err)
+        self.assertEqual(len(result.err.splitlines()), 1, result.err)
+        self.assertIn("t.exr", result.err)
+        (self.dir / "out.png").unlink(missing_ok=True)
+        self.assertEqual(sward_cli.snapshot(self.dir), files)
+        self.assert_done(self.render(*arguments, "--tracks", "t.exr"))
 
     def test_picture_and_statistics(self):
         """Both or neither: here there is room for a picture of four pixels and not for its

@@ -346,8 +346,7 @@ TEST_F(Layout, Tracks) {
         using Struct = shared::TrackPrint;
         expect_same("TrackPrint", "track.h",
                     {PLACE(now), PLACE(before), PLACE(half_width_m), PLACE(half_depth_m),
-                     PLACE(underside_m), PLACE(load), PLACE(kind), PLACE(unused_a), PLACE(unused_b),
-                     PLACE(unused_c)},
+                     PLACE(underside_m), PLACE(load), PLACE(kind), PLACE(map), PLACE(tilt)},
                     sizeof(Struct));
     }
     {

@@ -209,6 +209,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"TrackWork", BIND_TRACK_WORK},
         {"TrackPrints", BIND_TRACK_PRINTS},
         {"TrackShown", BIND_TRACK_SHOWN},
+        {"TrackMaps", BIND_TRACK_MAPS},
 
         {"Records", BIND_PHYSICS_BLADES},
         {"Pages", BIND_PHYSICS_PAGES},
@@ -241,11 +242,10 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         for (const auto& [interface, names] : {std::pair{GLenum{GL_UNIFORM_BLOCK}, uniform_blocks},
                                                {GLenum{GL_SHADER_STORAGE_BLOCK}, storage_blocks}}) {
             for (GLint i = 0; i < resource_count(program.id(), interface); ++i) {
-                const std::string name =
-                    resource_name(program.id(), interface, static_cast<GLuint>(i));
+                const auto at = static_cast<GLuint>(i);
+                const std::string name = resource_name(program.id(), interface, at);
                 ASSERT_TRUE(names.count(name)) << name << " in " << program.name();
-                EXPECT_EQ(resource_value(program.id(), interface, static_cast<GLuint>(i),
-                                         GL_BUFFER_BINDING),
+                EXPECT_EQ(resource_value(program.id(), interface, at, GL_BUFFER_BINDING),
                           names.at(name))
                     << name;
                 seen.insert(name);

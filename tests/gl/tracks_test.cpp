@@ -36,18 +36,25 @@ struct Field {
     tracks::Tracks tracks;
 };
 
-TEST_F(Tracks, StepsEqualTheTwin) {
-    const scene::Scene scene = drive(10, 4, 28);
+/// A page stepped on the GPU and by the twin: what touches it at each time.
+void expect_twin(const scene::Scene& scene, const scene::Mesh* mesh,
+                 const std::function<tracks::Body(double time_s)>& body_at) {
     const shared::TrackRules rules = tracks::rules_of(*scene.tracks, 0.3);
-    const tracks::PrintList list(*scene.tracks, scene.paths, 0.3,
-                                 [](double, double) { return 0.0; });
+    tracks::PrintList list(*scene.tracks, scene.paths, 0.3, [](double, double) { return 0.0; });
     constexpr int kRow = shared::kTrackRow;
     tracks::TrackPass pass(1, shared::kTrackBlocks, 64);
     pass.reserve(1, shared::kTrackBlocks);
     TrackTwin twin;
+    if (mesh) {
+        list.set_meshes({&mesh, 1});
+        pass.set_maps(list.maps());
+        twin.maps = list.maps();
+    }
     for (int n = 1; n <= 160; ++n) {
         tracks::TrackPass::Work work;
-        for (const tracks::Print& print : list.at(n / 60.0, 1 / 60.0, {})) {
+        const tracks::Body body = body_at(n / 60.0);
+        const std::span<const tracks::Body> bodies(&body, mesh ? 1 : 0);
+        for (const tracks::Print& print : list.at(n / 60.0, 1 / 60.0, {{}, bodies})) {
             work.prints.push_back(print.from({0, 0}));
         }
         for (int block = 0; block < shared::kTrackBlocks; ++block) {
@@ -89,6 +96,29 @@ TEST_F(Tracks, StepsEqualTheTwin) {
     EXPECT_LT(most_omega, 1e-4);
     EXPECT_LT(most_pressed, 1e-4);
     EXPECT_GT(reached, 0.05);
+}
+
+TEST_F(Tracks, StepsEqualTheTwin) {
+    expect_twin(drive(10, 4, 28), nullptr, [](double) { return tracks::Body{}; });
+}
+
+TEST_F(Tracks, StepsOfAMeshEqualTheTwin) {
+    // A wedge with its edge down: sloping, tilted, turning on its way, now brushing, now pressing.
+    scene::Mesh wedge;
+    wedge.positions = {{-0.8f, 0, 0}, {0.8f, 0.05f, 0.1f}, {-0.7f, 0.5f, -1}, {0.9f, 0.5f, 1.2f}};
+    wedge.triangles = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+    scene::Scene scene;
+    scene.tracks.emplace();
+    const auto frame = [](double t) {
+        const double yaw = 0.9 * t;
+        return glm::dmat4{{std::cos(yaw), 0.05, std::sin(yaw), 0},
+                          {0, 1, 0, 0},
+                          {-std::sin(yaw), -0.1, std::cos(yaw), 0},
+                          {7.03 + 6.1 * t, 0.12 + 0.1 * std::sin(5 * t), 15.02 + 1.3 * t, 1}};
+    };
+    expect_twin(scene, &wedge, [&](double t) {
+        return tracks::Body{0, frame(t), frame(t - 1 / 60.0)};
+    });
 }
 
 /// Bits of everything that lies or bends, by page.
