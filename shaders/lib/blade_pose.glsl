@@ -57,8 +57,8 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
         keep_length(pose.v1, pose.v2, blade.shape.y);
     }
     pose.simulated = live(which, blade, pose.root, pose.v1, pose.v2);
-    float lying = lying_height(pose.sway.lying);
-    if (lying < 1.0) { // after contacts and wind: what lies is lower, in every tier by the same factor
+    float lying = lying_height(pose.sway.lying) * land_height(pose.root.xz, distance(pose.root, frame.eye.xyz) / frame.eye.w);
+    if (lying != 1.0) { // after contacts and wind: what lies is lower, and a class's height its own, in every tier by the same factor
         pose.v1.y *= lying;
         pose.v2.y *= lying;
     }

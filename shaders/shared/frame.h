@@ -47,9 +47,10 @@ struct FrameConstants {
     float near_m;     // near plane; depth, which is reversed, holds it over the distance along the axis
     int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
     float unused_a; // to 16 bytes
+    vec4 land; // texel of the landcover (m; 0: there is none); greatest factor on height, 1 at least; 1 where heights differ; unused
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112);
+static_assert(sizeof(FrameConstants) == 128 + 16 * 8 + 64 + 16 + 256 + 96 * kMaxSpecies + 64 + 112 + 48 + 112 + 16);
 #endif
 
 SHARED_CONST int kBlockCells = 8;

@@ -15,7 +15,7 @@ void main() {
     vec2 xz = block.place.xy + cell * block.place.z;
     BlockSample here = samples[gl_InstanceID * kBlockPosts + gl_VertexID];
     float canopy = frame.patch_grid.w;
-    float top = canopy + bend_offset(canopy, canopy, here.motion.zw, frame.wind.mean.w).y;
+    float top = frame.land.y * (canopy + bend_offset(canopy, canopy, here.motion.zw, frame.wind.mean.w).y);
     ground = vec4(here.motion.xy, here.ground.yw);
     air = vec4(here.motion.zw, here.sway.xy);
     gl_Position = frame.clip_from_world * vec4(xz.x, here.ground.x + top, xz.y, 1.0);

@@ -126,7 +126,11 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     plan.kind = kind;
     march_settle(plan);
     vec2 factors = correction_at(plan);
+#ifdef SURFACE
     float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
+#else
+    float scale = plan.density * factors.x * step(0.0021, has_land() ? plan.density : entry.ground.z);
+#endif
     Light light = light_at(entry);
     vec3 normal = normal_at(entry);
     float slope = dot(normal, frame.light.to_sun.xyz); // both in the world
@@ -149,6 +153,9 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         Texel at = texel_of(plan, taken);
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a;
+#ifndef SURFACE
+        depth *= has_land() ? land_share(entry, plan, taken.rest) : 1.0;
+#endif
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
         depth = march_beside(depth);
@@ -214,7 +221,7 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
             return drawn;
         }
     }
-    next.height = over_it ? path.bend.w : march_height(path, walk.s);
+    next.height = over_it ? path.bend.w * highest() : march_height(path, walk.s) * (has_heights() ? entry.lying : 1.0);
     next.distance = entry.distance + walk.s;
     if (over_it) {
         float last = min(scene, kHorizon);
@@ -232,6 +239,9 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
     next.distance = walk.layer < 0 ? kNever : next.distance;
+    if (has_heights() && next.distance < kNever) {
+        next = entry_on_track(view, next, next.height);
+    }
     return next;
 }
 

@@ -22,7 +22,7 @@ void main() {
     gl_Position = vec4(ndc, plane, 1.0);
     float canopy = frame.patch_grid.w;
     vec2 wind = wind_at(frame.eye.xz);
-    float top = canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y;
+    float top = highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y);
     Ground ground = ground_surface(frame.eye.xz);
     eye_place = vec2(eye_height < top + frame.near_m ? 1.0 : 0.0, eye_height);
     eye_ground = vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);

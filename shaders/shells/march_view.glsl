@@ -64,44 +64,69 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
-// Tracks are finer than the vertices that the canopy's surface was drawn by, which know the wind alone: where stems lie, the ray goes on down
-// to what is left of the canopy, or comes to the side of what stands beside it.
+// Tracks and classes are finer than the vertices that the canopy's surface was drawn by, which know the wind alone and stand as high as the highest
+// class: the ray goes on down to the top of what stands where it is, or comes to the side of what stands beside it. `from`: height of its entry (m).
 const int kTrackSteps = 4;
+const int kLandSteps = 10;
 const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of a long footprint is seen at once
-Entry entry_on_track(View view, Entry entry) {
+Entry entry_on_track(View view, Entry entry, float from) {
     float canopy = frame.patch_grid.w;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
     TrackSeen track = track_nothing();
-    entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.mean.w).y;
+    entry.height = from;
+    int most = has_heights() ? kLandSteps : kTrackSteps;
+    float longest = 0.3 * canopy; // no farther at once: something may stand there
+    float down = 0.0;
+    bool trodden = false;
     vec3 at;
-    for (int n = 0; n < kTrackSteps; ++n) {
+    for (int n = 0; n < most; ++n) {
         at = frame.eye.xyz + view.way * min(entry.distance, kFarthest);
         float width = entry.distance / frame.eye.w;
-        track = track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
-        entry.lying = lying_height(track.lying);
+        entry.lying = land_height(at.xz, width);
+        if (has_tracks()) {
+            track = track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
+            entry.lying *= lying_height(track.lying);
+        }
         entry.aligned = 1.0;
-        if (dot(track.theta, track.theta) + track.lying < 1e-3) {
-            entry.air = standing;
+        entry.air = standing;
+        trodden = dot(track.theta, track.theta) + track.lying >= 1e-3;
+        if (!trodden && !has_heights()) {
             return entry;
         }
-        vec2 ahead = track_ahead(at.xz, width, kLeanHeight); // the canopy has one bend: that of the height which stands for it
-        if (dot(ahead, ahead) > 0.0) {
-            track.theta = track_at(at.xz + ahead, width).theta;
+        if (trodden) {
+            vec2 ahead = track_ahead(at.xz, width, kLeanHeight); // the canopy has one bend: that of the height which stands for it
+            if (dot(ahead, ahead) > 0.0) {
+                track.theta = track_at(at.xz + ahead, width).theta;
+            }
+            Sway here = sway_of(standing.xy, track);
+            entry.air.xy = here.wind;
+            entry.aligned = here.aligned;
         }
-        Sway here = sway_of(standing.xy, track);
-        entry.air.xy = here.wind;
-        entry.aligned = here.aligned;
-        float down = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.mean.w).y);
-        if (down < 0.02 * canopy || n == kTrackSteps - 1) {
+        float over = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.mean.w).y);
+        bool past = has_heights() && over < -0.1 * canopy && down > 0.1 * canopy; // in the side of something: back by half
+        if ((over < 0.02 * canopy && !past) || n == most - 1) {
             break;
         }
-        down = min(down, 0.3 * canopy); // no farther at once: something may stand there
-        entry.height -= down;
-        entry.distance += down / fall;
+        longest = past ? 0.5 * down : longest;
+        down = min(abs(over), longest);
+        entry.height -= past ? -down : down;
+        entry.distance += (past ? -down : down) / fall;
     }
-    entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
+    if (trodden) {
+        entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
+    }
+    if (has_heights()) {
+        Ground ground = ground_surface(at.xz);
+        entry.ground.zw = vec2(ground.density, ground.tint);
+    }
     return entry;
+}
+
+// Height over the ground at which rays come into the canopy from above.
+float canopy_top(vec2 wind) {
+    float canopy = frame.patch_grid.w;
+    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y);
 }
 
 // Where the ray comes through the canopy's upper surface from above.
@@ -112,14 +137,17 @@ Entry entry_from_above(View view, ivec2 pixel) {
     if (frame.clip_layout.w != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
+        ground.w = has_land() ? ground_surface(xz).tint : ground.w;
     }
     Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
-    return has_tracks() && distance_m < kNever ? entry_on_track(view, entry) : entry;
+    bool uneven = has_tracks() || has_heights();
+    return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy)) : entry;
 }
 
 Entry entry_of(View view, ivec2 pixel) {
     if (eye_place.x > 0.5) { // the eye stands in the canopy
-        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
+        Entry entry = Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
+        return has_heights() ? entry_on_track(view, entry, eye_place.y) : entry;
     }
     return entry_from_above(view, pixel);
 }
@@ -132,14 +160,14 @@ MarchPath path_of(View view, Entry entry) {
     float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
-    float height = min(entry.height, path.bend.w);
+    float height = min(entry.height, path.bend.w * highest());
     path.from = vec3(at.x, height, at.z);
     path.way = view.way;
     float fall = view.way.y - dot(entry.ground.xy, view.way.xz);
     float most = 40.0 * canopy + 0.02 * entry.distance;
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
     float lying = 1.0;
-    if (has_tracks()) { // heights are counted as they were before the stems lay down
+    if (has_tracks() || has_heights()) { // heights are counted as they were before the stems lay down
         path.bend.xy *= entry.aligned;
         lying = entry.lying;
         height = min(entry.height / lying, path.bend.w);
@@ -167,6 +195,26 @@ float ground_reach(MarchPath path) {
     return min(path.height.x / max(-path.height.y, 1e-4), kNever);
 }
 
+// Greatest density of the grass that a ray passes: a border may lie on its way. The march's steps know what stands at each.
+float densest(View view, Entry entry, MarchPath path) {
+    const int kProbes = 4;
+    float width = entry.distance / frame.eye.w;
+    float reach = min(ground_reach(path), path.height.w);
+    float most = 0.0;
+    for (int i = 0; i < kProbes; ++i) {
+        vec2 xz = frame.eye.xz + view.way.xz * (entry.distance + reach * float(i) / float(kProbes - 1));
+        most = max(most, mask_density(xz, width));
+    }
+    return most * frame.grass.y;
+}
+
+// Share of the plan's density that stands at a place `y` high on the path, at rest.
+float land_share(Entry entry, MarchPlan plan, vec3 rest) {
+    float share = mask_density(rest.xz, plan.footprint) * frame.grass.y / plan.density;
+    bool over_it = has_heights() && rest.y * entry.lying > 1.02 * frame.patch_grid.w * land_height(rest.xz, plan.footprint);
+    return over_it ? 0.0 : share;
+}
+
 // Light, and directions, as the canopy's own axes have them: level ground's are the world's.
 Light light_at(Entry entry) {
     return light_in_sway(frame.light, entry.air.zw);
@@ -191,7 +239,13 @@ float near_reach() {
 
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
-    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(entry.ground.z, 0.002)));
+    float density = entry.ground.z;
+#ifndef SURFACE
+    if (has_land()) {
+        density = densest(view, entry, path);
+    }
+#endif
+    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(density, 0.002)));
     march_choose(plan, view.dither);
     return plan;
 }

@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "shared/bindings.h"
 #include "shared/surface.h"
+#include "terrain/land_textures.h"
 #include "terrain/mask_mips.h"
 
 namespace sward::terrain {
@@ -58,6 +59,8 @@ gl::Texture mask_texture(const scene::DensityMask& mask) {
     }
     texture.set_filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     texture.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    if (mask.outside)
+        go_on_with(texture, {static_cast<float>((*mask.outside)[0]) / 255, 0, 0, 0});
     return texture;
 }
 
@@ -71,7 +74,7 @@ gl::Texture level_texture(std::uint32_t format, int levels) {
 } // namespace
 
 GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& density)
-    : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)),
+    : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)), land(land_textures(density)),
       height_program("clipmap height", {"terrain/clipmap_height.comp"}), surface_program("clipmap surface", {"terrain/clipmap_surface.comp"}),
       mask_first(density.first_m), mask_size(density.size_m),
       mask_mode(density.width < 1 ? shared::kMaskNone : density.bounded ? shared::kMaskBounded : shared::kMaskEndless) {
@@ -79,6 +82,7 @@ GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& dens
         mask_size = ground.elevation().extent_m();
         mask_first = -0.5 * mask_size;
     }
+    land_frame = land_constants(density, mask_size);
 }
 
 Clipmap::Clipmap(const std::shared_ptr<GroundSource>& source)
@@ -125,6 +129,8 @@ void Clipmap::bind() const {
     heights_.bind(TEX_CLIP_HEIGHT);
     surfaces_.bind(TEX_CLIP_SURFACE);
     source_->mask.bind(TEX_MASK);
+    source_->land[0].bind(TEX_LAND_COVER);
+    source_->land[1].bind(TEX_LAND_GROUND);
 }
 
 void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
@@ -141,6 +147,7 @@ void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
     frame.clip_layout.x = levels();
     frame.clip_layout.w = source_->mask_mode;
+    frame.land = source_->land_frame;
     frame.mask_place = {glm::vec2((anchor - source_->mask_first) / source_->mask_size), glm::vec2(1.0 / source_->mask_size)};
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;

@@ -260,6 +260,8 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
+                                                {"land_cover", TEX_LAND_COVER},
+                                                {"land_ground", TEX_LAND_GROUND},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
                                                 {"depth", TEX_RESOLVE_DEPTH},

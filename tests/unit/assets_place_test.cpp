@@ -23,7 +23,7 @@ protected:
     scene::DensityMask mask(const Tiff& tiff, const Heightfield& ground, const std::map<int, double>& classes = {}) {
         put(dir_ / "mask.tif", tiff.bytes());
         spec_.mask = dir_ / "mask.tif";
-        spec_.classes = classes;
+        spec_.classes = {classes.begin(), classes.end()};
         return load_mask(spec_, ground);
     }
     TempDir dir_;
