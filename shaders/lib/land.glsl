@@ -37,7 +37,12 @@ struct LandEdge {
     float soft;  // half of the shares that are neither
 };
 
+// LAND_SMOOTH: without the noise, whose mean is 0; of the march, which asks at every step.
 LandEdge land_edge(vec2 xz, float width) {
+    float soft = clamp(0.5 * width / frame.land.x, 0.01, 0.5);
+#ifdef LAND_SMOOTH
+    return LandEdge(0.5, max(soft, 0.15));
+#else
     float aside = 0.0; // m
     float size = 1.0;
     for (int i = 0; i < kEdgeOctaves; ++i) {
@@ -48,9 +53,9 @@ LandEdge land_edge(vec2 xz, float width) {
         aside += kEdgeRagged * size * share * cell_noise(xz, ivec2(frame.anchor_x, frame.anchor_z), size, 0x1a4du + uint(i));
         size *= 0.5;
     }
-    float soft = clamp(0.5 * width / frame.land.x, 0.01, 0.5);
     float most = 0.8 * (0.5 - soft); // so that all is all, and none none
     return LandEdge(0.5 + clamp(aside / frame.land.x, -most, most), soft);
+#endif
 }
 
 float beyond_edge(float share, LandEdge edge) {

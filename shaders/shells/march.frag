@@ -115,7 +115,8 @@ float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half
 #else
     float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
     vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
-    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), entry.ground.w, max(plan.footprint, 0.5 * plan.stretch));
+    float slow = has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w;
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), slow, max(plan.footprint, 0.5 * plan.stretch));
 #endif
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's ray and where it enters the canopy: for the choice of its kind and for the march itself. SURFACE: the canopy of a mesh.
+#define LAND_SMOOTH
 #include "lib/ground.glsl"
 #include "shared/bend.h"
 #include "shared/lod.h"
@@ -117,8 +118,7 @@ Entry entry_on_track(View view, Entry entry, float from) {
         entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
     }
     if (has_heights()) {
-        Ground ground = ground_surface(at.xz);
-        entry.ground.zw = vec2(ground.density, ground.tint);
+        entry.ground.z = mask_density(at.xz, entry.distance / frame.eye.w) * frame.grass.y;
     }
     return entry;
 }
@@ -137,7 +137,6 @@ Entry entry_from_above(View view, ivec2 pixel) {
     if (frame.clip_layout.w != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
-        ground.w = has_land() ? ground_surface(xz).tint : ground.w;
     }
     Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
     bool uneven = has_tracks() || has_heights();

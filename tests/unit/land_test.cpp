@@ -70,8 +70,8 @@ TEST_F(Land, AClassIsANumberOrATable) {
 
 TEST_F(Land, WhatAClassMayNotSay) {
     const std::string classes = "[terrain.classes]\n";
-    EXPECT_EQ(error(classes + "30 = { density = 1, height = 3 }\n"), "scene.toml:5: terrain.classes.30.height: found 3, expected 0.2 to 2");
-    EXPECT_EQ(error(classes + "30 = { density = 1, dryness = 1.5 }\n"), "scene.toml:5: terrain.classes.30.dryness: found 1.5, expected -1 to 1");
+    EXPECT_EQ(error(classes + "30 = { density = 1, height = 3 }\n"), "scene.toml:5: terrain.classes.30.height: found 3, expected a number from 0.2 to 2");
+    EXPECT_EQ(error(classes + "30 = { density = 1, dryness = 1.5 }\n"), "scene.toml:5: terrain.classes.30.dryness: found 1.5, expected a number from -1 to 1");
     EXPECT_EQ(error(classes + "30 = { ground = \"lava\" }\n"),
               "scene.toml:5: terrain.classes.30.ground: found \"lava\", expected one of soil, rock, sand, gravel, asphalt, water");
     EXPECT_EQ(error(classes + "30 = { height = 0.5 }\n"),
