@@ -11,33 +11,15 @@
 namespace sward::terrain {
 namespace {
 
-constexpr int kChannels = 4;
+constexpr std::size_t kChannels = 4;
 
 /// Four of the bytes of each texel, from `first` on.
 std::vector<std::uint8_t> part_of(const std::vector<std::uint8_t>& land, std::size_t first) {
     std::vector<std::uint8_t> part;
     part.reserve(land.size() / 2);
     for (std::size_t at = first; at < land.size(); at += scene::kLandBytes)
-        part.insert(part.end(), land.begin() + static_cast<std::ptrdiff_t>(at), land.begin() + static_cast<std::ptrdiff_t>(at + kChannels));
+        part.insert(part.end(), land.data() + at, land.data() + at + kChannels);
     return part;
-}
-
-std::vector<std::uint8_t> next_bytes(const std::vector<std::uint8_t>& texels, glm::ivec2& size) {
-    std::vector<std::uint8_t> mip;
-    glm::ivec2 half = size;
-    for (std::size_t channel = 0; channel < kChannels; ++channel) {
-        std::vector<float> own;
-        own.reserve(texels.size() / kChannels);
-        for (std::size_t at = channel; at < texels.size(); at += kChannels)
-            own.push_back(static_cast<float>(texels[at]));
-        half = size;
-        own = next_mip(own, half);
-        mip.resize(own.size() * kChannels);
-        for (std::size_t i = 0; i < own.size(); ++i)
-            mip[i * kChannels + channel] = static_cast<std::uint8_t>(std::lround(own[i]));
-    }
-    size = half;
-    return mip;
 }
 
 gl::Texture texture_of(std::vector<std::uint8_t> texels, glm::ivec2 size) {
@@ -48,7 +30,7 @@ gl::Texture texture_of(std::vector<std::uint8_t> texels, glm::ivec2 size) {
     gl::Texture texture(GL_RGBA8, shape);
     texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     for (int mip = 1; mip < shape.mips; ++mip) {
-        texels = next_bytes(texels, size);
+        texels = next_mip(texels, size);
         texture.upload(mip, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     }
     texture.set_filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
