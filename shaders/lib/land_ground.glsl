@@ -27,18 +27,20 @@ Grounds grounds_at(vec2 xz, float width) {
     return Grounds(a, b - a, c - b, d - c, beyond_edge(all, edge) - d);
 }
 
-// Octaves of noise from cells of `size` down, each `falloff` of the one before.
-float noise_from(vec2 xz, ivec2 anchor, float size, int octaves, float falloff, uint salt, float width) {
+// Octaves of noise. `shape`: size of the widest cells (m), octaves, weight of each over the one before, width of what is seen (m).
+float noise_from(vec2 xz, vec4 shape, uint salt) {
+    ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     float sum = 0.0;
     float weight = 1.0;
-    for (int i = 0; i < octaves; ++i) {
-        float share = octave_share(size, width);
+    float size = shape.x;
+    for (int i = 0; i < int(shape.y); ++i) {
+        float share = octave_share(size, shape.w);
         if (share <= 0.0) {
             break;
         }
         sum += weight * share * cell_noise(xz, anchor, size, salt + uint(i));
         size *= 0.5;
-        weight *= falloff;
+        weight *= shape.z;
     }
     return sum;
 }
@@ -69,31 +71,31 @@ vec2 stones_at(vec2 xz, ivec2 anchor, float size, uint salt, float width) {
 }
 
 vec3 rock_colour(vec2 xz, ivec2 anchor, float tint, float width) {
-    float slabs = noise_from(xz, anchor, 4.0, 8, 0.75, 0x30c4u, width);
+    float slabs = noise_from(xz, vec4(4.0, 8.0, 0.75, width), 0x30c4u);
     float cracks = octave_share(0.5, width) * (0.22 - smoothstep(0.0, 0.06, abs(cell_noise(xz, anchor, 0.5, 0x30d4u))) * 0.25);
-    float lichen = noise_from(xz, anchor, 0.5, 5, 0.8, 0x30e4u, width);
+    float lichen = noise_from(xz, vec4(0.5, 5.0, 0.8, width), 0x30e4u);
     vec3 colour = frame.rock.rgb * mix(0.85, 1.2, tint) * max(1.0 + 0.9 * slabs - cracks, 0.25);
     return mix(colour, colour * vec3(1.05, 1.15, 0.85), clamp(0.3 + 1.5 * lichen, 0.0, 1.0));
 }
 
 vec3 sand_colour(vec2 xz, ivec2 anchor, float width) {
-    float waves = noise_from(xz + 0.15 * vec2(cell_noise(xz, anchor, 2.0, 0x5a01u)), anchor, 8.0, 3, 0.8, 0x5a10u, width);
+    float waves = noise_from(xz + 0.15 * vec2(cell_noise(xz, anchor, 2.0, 0x5a01u)), vec4(8.0, 3.0, 0.8, width), 0x5a10u);
     float ripples = octave_share(0.0625, width) * stretched_noise(xz, anchor, vec2(0.5, 0.0625), 0x5a20u);
-    float grains = noise_from(xz, anchor, 0.015625, 3, 1.0, 0x5a30u, width);
+    float grains = noise_from(xz, vec4(0.015625, 3.0, 1.0, width), 0x5a30u);
     return vec3(0.40, 0.32, 0.21) * max(1.0 + 0.25 * waves + 0.35 * ripples + 0.5 * grains, 0.3);
 }
 
 vec3 gravel_colour(vec2 xz, ivec2 anchor, float width) {
     vec2 large = stones_at(xz, anchor, 0.03125, 0x9a01u, width);
     vec2 small = stones_at(xz, anchor, 0.0078125, 0x9a02u, width);
-    float worn = noise_from(xz, anchor, 4.0, 6, 0.75, 0x9a10u, width);
+    float worn = noise_from(xz, vec4(4.0, 6.0, 0.75, width), 0x9a10u);
     float value = 1.0 + 0.45 * large.x - 0.9 * (large.y - 0.5) + 0.25 * small.x - 0.4 * (small.y - 0.5) + 0.45 * worn;
     return vec3(0.23, 0.215, 0.19) * (vec3(1.0) + 0.06 * large.x * vec3(1.0, 0.2, -1.0)) * max(value, 0.15);
 }
 
 vec3 asphalt_colour(vec2 xz, ivec2 anchor, float width) {
     vec2 chips = stones_at(xz, anchor, 0.0078125, 0xa501u, width);
-    float worn = noise_from(xz, anchor, 8.0, 7, 0.7, 0xa510u, width);
+    float worn = noise_from(xz, vec4(8.0, 7.0, 0.7, width), 0xa510u);
     float crack = octave_share(0.125, width) * (0.05 - (1.0 - smoothstep(0.0, 0.012, abs(cell_noise(xz, anchor, 2.0, 0xa520u) + 0.1 * cell_noise(xz, anchor, 0.25, 0xa521u)))));
     return vec3(0.064, 0.063, 0.062) * max(1.0 + 0.5 * chips.x - 0.5 * (chips.y - 0.5) + 0.4 * worn + 0.5 * crack, 0.2);
 }
@@ -113,7 +115,7 @@ vec3 ground_colour(vec3 soil, Grounds grounds, vec2 xz, float tint, float width)
 // Radiance of still water, level whatever the ground is, toward the eye: the sky by Fresnel (Schlick, 2 percent), and what its depth gives back.
 vec3 water_radiance(vec2 xz, vec3 to_eye, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
-    vec2 slope = vec2(noise_from(xz, anchor, 2.0, 5, 0.8, 0x3a7au, width), noise_from(xz, anchor, 2.0, 5, 0.8, 0x3b7au, width));
+    vec2 slope = vec2(noise_from(xz, vec4(2.0, 5.0, 0.8, width), 0x3a7au), noise_from(xz, vec4(2.0, 5.0, 0.8, width), 0x3b7au));
     vec3 normal = normalize(vec3(0.045 * slope.x, 1.0, 0.045 * slope.y));
     vec3 mirrored = reflect(-to_eye, normal);
     mirrored.y = abs(mirrored.y); // ripples that would mirror the bank

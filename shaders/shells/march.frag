@@ -115,8 +115,7 @@ float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half
 #else
     float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
     vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
-    float slow = has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w;
-    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), slow, max(plan.footprint, 0.5 * plan.stretch));
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w, max(plan.footprint, 0.5 * plan.stretch));
 #endif
 }
 
@@ -127,11 +126,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     plan.kind = kind;
     march_settle(plan);
     vec2 factors = correction_at(plan);
-#ifdef SURFACE
-    float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
-#else
-    float scale = plan.density * factors.x * step(0.0021, has_land() ? plan.density : entry.ground.z);
-#endif
+    float scale = plan.density * factors.x * bears_any(entry, plan);
     Light light = light_at(entry);
     vec3 normal = normal_at(entry);
     float slope = dot(normal, frame.light.to_sun.xyz); // both in the world
@@ -153,10 +148,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         Texel at = texel_of(plan, taken);
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
-        float depth = scale * taken.depth * texel.a;
-#ifndef SURFACE
-        depth *= has_land() ? land_share(entry, plan, taken.rest) : 1.0;
-#endif
+        float depth = scale * taken.depth * texel.a * land_share(entry, plan, taken.rest);
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye.xyz + view.way * middle);
         depth = march_beside(depth);
@@ -240,10 +232,7 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
     next.distance = walk.layer < 0 ? kNever : next.distance;
-    if (has_heights() && next.distance < kNever) {
-        next = entry_on_track(view, next, next.height);
-    }
-    return next;
+    return has_heights() && next.distance < kNever ? entry_on_track(view, next, next.height) : next;
 }
 
 // A ray of some of the pixel's samples.

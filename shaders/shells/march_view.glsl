@@ -194,26 +194,6 @@ float ground_reach(MarchPath path) {
     return min(path.height.x / max(-path.height.y, 1e-4), kNever);
 }
 
-// Greatest density of the grass that a ray passes: a border may lie on its way. The march's steps know what stands at each.
-float densest(View view, Entry entry, MarchPath path) {
-    const int kProbes = 4;
-    float width = entry.distance / frame.eye.w;
-    float reach = min(ground_reach(path), path.height.w);
-    float most = 0.0;
-    for (int i = 0; i < kProbes; ++i) {
-        vec2 xz = frame.eye.xz + view.way.xz * (entry.distance + reach * float(i) / float(kProbes - 1));
-        most = max(most, mask_density(xz, width));
-    }
-    return most * frame.grass.y;
-}
-
-// Share of the plan's density that stands at a place `y` high on the path, at rest.
-float land_share(Entry entry, MarchPlan plan, vec3 rest) {
-    float share = mask_density(rest.xz, plan.footprint) * frame.grass.y / plan.density;
-    bool over_it = has_heights() && rest.y * entry.lying > 1.02 * frame.patch_grid.w * land_height(rest.xz, plan.footprint);
-    return over_it ? 0.0 : share;
-}
-
 // Light, and directions, as the canopy's own axes have them: level ground's are the world's.
 Light light_at(Entry entry) {
     return light_in_sway(frame.light, entry.air.zw);
@@ -236,15 +216,11 @@ float near_reach() {
     return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 0.0 : max(frame.handover.x - aside, 0.0);
 }
 
+#include "shells/march_land.glsl"
+
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
-    float density = entry.ground.z;
-#ifndef SURFACE
-    if (has_land()) {
-        density = densest(view, entry, path);
-    }
-#endif
-    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(density, 0.002)));
+    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(densest(view, entry, path), 0.002)));
     march_choose(plan, view.dither);
     return plan;
 }
