@@ -77,7 +77,7 @@ azimuth_deg = 135
 elevation_deg = 35
 
 [wind]
-speed_ms = 4
+speed_mps = 4
 direction_deg = 270
 gust = 0.4
 seed = 7

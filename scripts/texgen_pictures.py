@@ -49,12 +49,12 @@ class View:
     pitch_deg: float
     fov_deg: float
     yaw_deg: float = 300
-    wind_ms: float = 0
+    wind_mps: float = 0
     arguments: list = field(default_factory=list)
 
 
 CLOSE = View(0.46, -19, 25, arguments=["--tiers", "blades", "--blades-distance", "1.7"])
-WINDY = View(0.46, -19, 25, yaw_deg=0, wind_ms=12, arguments=CLOSE.arguments)
+WINDY = View(0.46, -19, 25, yaw_deg=0, wind_mps=12, arguments=CLOSE.arguments)
 STAND = View(0.75, -33, 44, arguments=["--tiers", "blades", "--blades-distance", "6"])
 ABOVE = View(2.6, -89, 40, arguments=["--tiers", "blades", "--blades-distance", "8"])
 AGAINST = View(0.42, -14, 44, yaw_deg=135, arguments=["--tiers", "blades", "--blades-distance", "8"])
@@ -134,10 +134,10 @@ def rows():
 
 # The shipped presets: camera (height, pitch, field of view), and whether the whole eye level fits.
 PRESETS = {
-    "meadow": View(1.7, -12, 60, wind_ms=4), "lawn": View(0.35, -12, 60, wind_ms=4),
-    "wheat": View(1.7, -12, 60, wind_ms=4), "heath": View(1.4, -14, 60, wind_ms=4),
-    "dry-steppe": View(1.7, -12, 60, wind_ms=4), "reeds": View(3.4, -10, 60, wind_ms=4),
-    "fur": View(0.06, -30, 50, wind_ms=0),
+    "meadow": View(1.7, -12, 60, wind_mps=4), "lawn": View(0.35, -12, 60, wind_mps=4),
+    "wheat": View(1.7, -12, 60, wind_mps=4), "heath": View(1.4, -14, 60, wind_mps=4),
+    "dry-steppe": View(1.7, -12, 60, wind_mps=4), "reeds": View(3.4, -10, 60, wind_mps=4),
+    "fur": View(0.06, -30, 50, wind_mps=0),
 }
 
 
@@ -198,7 +198,7 @@ detail_m = 0
 [grass]
 set = "{grass}"
 [wind]
-speed_ms = {float(view.wind_ms)}
+speed_mps = {float(view.wind_mps)}
 [camera.here]
 position = [2535, {float(view.height_m)}, -1341]
 yaw_deg = {view.yaw_deg}

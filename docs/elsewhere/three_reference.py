@@ -19,7 +19,7 @@ set = "{set}"
 azimuth_deg = 135
 elevation_deg = 35
 [wind]
-speed_ms = 0
+speed_mps = 0
 gust = 0
 [camera.top]
 position = [0, 10, 0]
@@ -34,7 +34,7 @@ def main(sward, grass, *options):
         (folder / "height.raw").write_bytes(struct.pack("<4096f", *[0.0] * 4096))
         (folder / "height.json").write_text('{"width": 64, "height": 64, "spacing_m": [10, 10]}')
         (folder / "scene.toml").write_text(SCENE.format(set=Path(grass).resolve()))
-        subprocess.run([Path(sward).resolve(), "render", "scene.toml", "-q", "-o", "top.exr", "--camera", "top", "--size", "384x384", *options],
+        subprocess.run([Path(sward).resolve(), "render", "scene.toml", "-q", "-o", "top.exr", "--camera", "top", "--size", "576x576", *options],
                        cwd=folder, check=True)
         with OpenEXR.File(str(folder / "top.exr"), separate_channels=True) as file:
             channels = file.channels()

@@ -41,20 +41,20 @@ void main() {
     blade_out[gl_InvocationID].rest = blade_in[0].rest;
     blade_out[gl_InvocationID].ground = blade_in[0].ground;
 
-    float pixels = frame.eye.w / max(distance(blade_in[0].root.xyz, frame.eye.xyz), 0.05);
+    float pixels = frame.focal_px / max(distance(blade_in[0].root.xyz, frame.eye), 0.05);
     float span = length(blade_in[0].v1.xyz) + length(blade_in[0].v2.xyz - blade_in[0].v1.xyz);
 #ifdef SURFACE
     blade_out[gl_InvocationID].across = blade_in[0].across;
     // Teeth are finer than the blade's curve.
     float finer = surface_shape.x == float(kShapeDandelion) ? 3.0 : 1.0;
-    float wanted = ceil(span * pixels / frame.pose_band.z);
-    bool head = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0;
+    float wanted = ceil(span * pixels / frame.segment_px);
+    bool head = frame.looks[int(blade_in[0].ground.z)].outline.head_from < 1.0;
     float along = surface_shape.x == kShapeOfSet ? clamp(wanted, head ? 8.0 : 2.0, 12.0)
-                                                 : surface_blade_level(ceil(finer * span * pixels / frame.pose_band.z), 24.0, surface_shape);
+                                                 : surface_blade_level(ceil(finer * span * pixels / frame.segment_px), 24.0, surface_shape);
 #else
     // A head has a curved rim of its own.
-    float least = frame.looks[int(blade_in[0].ground.z)].outline.z < 1.0 ? 8.0 : 2.0;
-    float along = clamp(ceil(span * pixels / frame.pose_band.z), least, 12.0);
+    float least = frame.looks[int(blade_in[0].ground.z)].outline.head_from < 1.0 ? 8.0 : 2.0;
+    float along = clamp(ceil(span * pixels / frame.segment_px), least, 12.0);
 #endif
     // The fold needs a middle; below a few pixels of width nobody sees it.
     float across = 2.0 * blade_in[0].v1.w * pixels > 3.0 ? 2.0 : 1.0;

@@ -29,19 +29,20 @@ out vec3 normal;
 out vec2 along;       // place along the blade; rest height over the canopy's
 flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
 flat out vec3 sort;    // tint of the ground, species, share of the simulated pose
-out vec4 haze;
+out vec3 air_added;
+out vec3 air_through;
 
 void main() {
     float u = gl_TessCoord.x;
 #ifdef SURFACE
     float level = gl_TessLevelOuter[0];
     bool of_set = surface_shape.x == kShapeOfSet;
-    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    BladeOutline outline = frame.looks[int(blade_in[0].ground.z)].outline;
     float v = of_set ? blade_station(gl_TessCoord.y, outline) : surface_blade_station(gl_TessCoord.y, surface_shape, level);
     vec3 t1 = blade_in[0].across.xyz;
     open_sky = blade_in[0].sway.z;
 #else
-    vec4 outline = frame.looks[int(blade_in[0].ground.z)].outline;
+    BladeOutline outline = frame.looks[int(blade_in[0].ground.z)].outline;
     float v = blade_station(gl_TessCoord.y, outline);
     vec3 t1 = blade_width_direction(blade_in[0].v2.w);
 #endif
@@ -51,8 +52,8 @@ void main() {
     vec3 centre = blade_in[0].root.xyz + blade_curve(v1, v2, v);
     vec3 t0 = blade_tangent(v1, v2, v);
     vec3 n = normalize(cross(t0, t1));
-    float pixels = 2.0 * half_width * frame.eye.w / max(distance(centre, frame.eye.xyz), 0.05);
-    float phi = 1.0 - clamp((pixels - frame.handover.z) / frame.handover.w, 0.0, 1.0);
+    float pixels = 2.0 * half_width * frame.focal_px / max(distance(centre, frame.eye), 0.05);
+    float phi = 1.0 - clamp((pixels - frame.width_least_px) / frame.width_span_px, 0.0, 1.0);
 #ifdef SURFACE
     float t = of_set ? mix(blade_outline(u, v, outline), u, phi * phi) : surface_blade_outline(u, v, surface_shape, vec2(level, phi));
 #else
@@ -66,6 +67,8 @@ void main() {
     along = vec2(v, 2.0 * v * (1.0 - v) * blade_in[0].rest.x + v * v * blade_in[0].rest.y);
     own = vec4(blade_in[0].rest.zw, blade_in[0].root.w, blade_in[0].ground.x);
     sort = blade_in[0].ground.yzw;
-    haze = haze_of(frame.light, world - frame.eye.xyz);
+    AirLight air = haze_of(world - frame.eye);
+    air_added = air.added;
+    air_through = air.through;
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -19,12 +19,12 @@ void main() {
     BladeRecord blade = tile_blade(which.x, which.y);
     BladePose pose = blade_pose(which, blade);
     Ground ground = ground_surface(pose.root.xz);
-    float tint = sward_patches(pose.root.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance(pose.root, frame.eye.xyz) / frame.eye.w);
+    float tint = sward_patches(pose.root.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance(pose.root, frame.eye) / frame.focal_px);
     blade_out.sway = sway_at(pose.root, pose.sway);
     blade_out.root = vec4(pose.root, pose.from_eye);
     blade_out.v1 = vec4(pose.v1, blade.v1.w);
     blade_out.v2 = vec4(pose.v2, pose.facing);
-    blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / frame.patch_grid.w, blade.root.zw);
-    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun.xyz), tint, blade.shape.w, pose.simulated);
+    blade_out.rest = vec4(vec2(blade.v1.y, blade.v2.y) / frame.canopy_m, blade.root.zw);
+    blade_out.ground = vec4(dot(ground.normal, frame.light.to_sun), tint, blade.shape.w, pose.simulated);
     gl_Position = vec4(0.0);
 }

@@ -21,14 +21,14 @@ bool outside(vec3 root, float reach) {
     vec4 clip = frame.clip_from_world * vec4(root, 1.0);
     vec2 slack = reach * (1.0 + vec2(length(vec3(frame.clip_from_world[0].x, frame.clip_from_world[1].x, frame.clip_from_world[2].x)),
                                      length(vec3(frame.clip_from_world[0].y, frame.clip_from_world[1].y, frame.clip_from_world[2].y))));
-    vec2 jitter = 2.0 / vec2(frame.clip_layout.yz); // a pixel: pictures of a round lie less apart
+    vec2 jitter = 2.0 / vec2(frame.picture_px); // a pixel: pictures of a round lie less apart
     return clip.w < -reach || any(greaterThan(abs(clip.xy), clip.ww * (1.0 + jitter) + slack));
 }
 
 uint choose(uvec2 item, uint index) {
     BladeRecord blade = tile_blade(item.x, index);
     vec3 root = blade_root(item.x, blade);
-    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) ||
+    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye), frame.handover_band, frame.handover_mode) ||
         blade.root.w >= ground_surface(root.xz).density) {
         return kGone;
     }

@@ -34,7 +34,7 @@ bool tested(uint test) { return (tests & (1 << test)) != 0; }
 
 // J7: seen along its width a blade is its fold alone. The printed inequality is the wrong way round.
 bool edge_on(vec3 root, vec3 across) {
-    return abs(dot(normalize(root - frame.eye.xyz), across)) > 0.9;
+    return abs(dot(normalize(root - frame.eye), across)) > 0.9;
 }
 
 #ifdef SURFACE
@@ -46,7 +46,7 @@ uint verdict(uvec2 item, uint index) {
     SurfaceBlade blade = surface_blades[index];
     vec3 root = surface_root(blade);
     float reach = blade.v1_height.w;
-    if (!handover_may_be_near(surface_rank_seed(index).x, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x)) {
+    if (!handover_may_be_near(surface_rank_seed(index).x, distance(root, frame.lod_eye), frame.handover_band, frame.handover_mode)) {
         return uint(CULL_LEFT);
     }
     if (tested(CULL_FRUSTUM) && !in_view(root, reach)) {
@@ -71,7 +71,7 @@ uint verdict(uvec2 item, uint index) {
     }
     BladeRecord blade = tile_blade(item.x, index);
     vec3 root = blade_root(item.x, blade);
-    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye.xyz), frame.handover.xy, frame.mode.x) ||
+    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye), frame.handover_band, frame.handover_mode) ||
         blade.root.w >= ground_surface(root.xz).density) {
         return uint(CULL_LEFT);
     }

@@ -29,10 +29,10 @@ shared uint moving;
 shared vec2 patch_wind;
 
 AwakePatch begin_patch() {
-    uint patch_id = awake[list_begin + int(gl_WorkGroupID.x)].work.x;
+    uint patch_id = awake[list_begin + int(gl_WorkGroupID.x)].number;
     AwakePatch found = AwakePatch(pages[patch_id / uint(patches_a_page)],
-                                  uvec4(patch_id, sphere_lists[2u * patch_id], sphere_lists[2u * patch_id + 1u], 0u));
-    found.work.w = awake[list_begin + int(gl_WorkGroupID.x)].work.w;
+                                  uvec2(sphere_lists[2u * patch_id], sphere_lists[2u * patch_id + 1u]), patch_id, 0u);
+    found.status = awake[list_begin + int(gl_WorkGroupID.x)].status;
     if (gl_LocalInvocationID.x == 0u) {
         moving = 0u;
     }
@@ -51,8 +51,8 @@ void tell_wind(uint patch_id, vec2 wind) {
 void end_patch(AwakePatch entry) {
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
-        uint next = moving > 0u || entry.work.z > 0u ? kPatchAwake : kPatchAsleep;
-        patches[entry.work.x] = PatchState(patch_wind, next, patches[entry.work.x].steps);
+        uint next = moving > 0u || entry.colliders.y > 0u ? kPatchAwake : kPatchAsleep;
+        patches[entry.number] = PatchState(patch_wind, next, patches[entry.number].steps);
     }
 }
 #else
@@ -125,23 +125,23 @@ bool step_blade(PhysicsRecord blade, vec3 root, vec2 wind, uvec2 list, uint at) 
 
 void main() {
     AwakePatch entry = begin_patch();
-    uint patch_id = entry.work.x;
-    uvec2 list = entry.work.yz;
-    uint status = entry.work.w;
+    uint patch_id = entry.number;
+    uvec2 list = entry.colliders;
+    uint status = entry.status;
     uint lane = gl_LocalInvocationID.x;
     uint within = (patch_id % uint(patches_a_page)) * uint(CULL_GROUP) + lane;
-    if (within < uint(entry.page.run.y)) {
-        PhysicsRecord blade = physics_laid(entry.page, record_at(uint(entry.page.run.x) + within));
+    if (within < uint(entry.page.blades)) {
+        PhysicsRecord blade = physics_laid(entry.page, record_at(uint(entry.page.first) + within));
         vec3 root = physics_root(entry.page, blade, kMeets && (list.y > 0u || needs_height()));
         vec2 wind = physics_wind(root.xz);
         uint at = patch_id * uint(CULL_GROUP) + lane;
         bool moves = true;
         if (kBegins && (!kGoesOn || status == kPatchNew)) {
             BladeBody body = physics_body(blade, vec3(0.0));
-            states[at] = grouped_state(body, wind, rules.time.z > 0.0 ? rules.time.z : body.response);
+            states[at] = grouped_state(body, wind, rules.response > 0.0 ? rules.response : body.response);
         }
         // In a run-up a collider finds blades that have not begun.
-        if ((kGoesOn && (!kBegins || status != kPatchNew)) || (kBegins && list.y > 0u && rules.time.x > 0.0)) {
+        if ((kGoesOn && (!kBegins || status != kPatchNew)) || (kBegins && list.y > 0u && rules.step_s > 0.0)) {
             moves = step_blade(blade, root, wind, list, at);
         }
         if (moves) {

@@ -26,11 +26,11 @@ layout(std430, binding = BIND_PHYSICS_PATCHES) buffer Patches { PatchState patch
 layout(std430, binding = BIND_PHYSICS_LISTS) readonly buffer Lists { uint sphere_lists[]; }; // first, count of each patch; then numbers
 
 uniform int patches_a_page;
-uniform int buffer_number; // of the records that are bound: BladePage::run.z
+uniform int buffer_number; // of the records that are bound: BladePage::records
 
 // Where something draws to a centre, the root's height matters to blades that nothing meets too.
 bool needs_height() {
-    return rules.memory.w > 0.0;
+    return rules.centre_share > 0.0;
 }
 
 // A record as it lies on its page's tile.
@@ -38,7 +38,7 @@ PhysicsRecord physics_laid(BladePage page, PhysicsRecord blade) {
 #ifdef SURFACE
     return blade;
 #else
-    return lay_blade(uint(page.run.w), blade, page.place.z);
+    return lay_blade(page.lie, blade, page.side_m);
 #endif
 }
 
@@ -46,9 +46,9 @@ PhysicsRecord physics_laid(BladePage page, PhysicsRecord blade) {
 // may be 0.
 vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
 #ifdef SURFACE
-    return page.place.xyz + blade.root_direction.xyz;
+    return page.origin + blade.root_direction.xyz;
 #else
-    vec2 xz = page.place.xy + blade.root.xy;
+    vec2 xz = page.origin.xz + blade.root.xy;
     return vec3(xz.x, high ? ground_at(xz) : 0.0, xz.y);
 #endif
 }
@@ -59,7 +59,7 @@ vec2 physics_wind(vec2 xz) {
     vec2 wind = wind_of(step_wind, xz);
 #ifndef SURFACE
     if (has_tracks()) {
-        wind = sway_wind(wind, rules.time.z > 0.0 ? rules.time.z : frame.wind.mean.w, vec2(0.0), sway_pressed(track_at(xz, 0.0)));
+        wind = sway_wind(wind, rules.response > 0.0 ? rules.response : frame.wind.response, vec2(0.0), sway_pressed(track_at(xz, 0.0)));
     }
 #endif
     return wind;

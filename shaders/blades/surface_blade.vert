@@ -26,15 +26,15 @@ out BladeVertex {
 // A point of the curve at rest, as the wind along the surface (B2) moves it in the far field (B3).
 vec3 bent(vec3 point, vec3 up, vec3 along) {
     float speed = length(along);
-    vec3 moved = bend_offset(dot(point, up), surface_origin.w, vec2(speed, 0.0), frame.wind.mean.w);
+    vec3 moved = bend_offset(dot(point, up), surface_origin.w, vec2(speed, 0.0), frame.wind.response);
     return point + along * (moved.x / max(speed, 1e-4)) + up * moved.y;
 }
 
 // Moves the pose of a set's blade to what the far field shows of it, as far as it has come to the hand-over.
 void join_far_pose(SurfaceBlade blade, uint index, vec3 root, float alive, inout vec3 v1, inout vec3 v2) {
-    float from_eye = distance(root, frame.lod_eye.xyz);
+    float from_eye = distance(root, frame.lod_eye);
     float rank = surface_rank_seed(index).x;
-    float share = pose_share(rank, from_eye, frame.pose_band.xy) * (1.0 - alive * own_pose_share(rank, from_eye, frame.pose_band.xy));
+    float share = pose_share(rank, from_eye, frame.pose_band) * (1.0 - alive * own_pose_share(rank, from_eye, frame.pose_band));
     if (share > 0.0) {
         vec3 up = blade.up_stiffness.xyz;
         vec2 wind = wind_at(root.xz);
@@ -51,9 +51,9 @@ float pose(SurfaceBlade blade, uint index, vec3 root, out vec3 v1, out vec3 v2) 
     BladeBody body = surface_blade_shape(blade, surface_origin.w);
     float share = 0.0;
     vec4 state = vec4(0.0);
-    uint slot = frame.simulated.y > 0.0 ? slots[uint(first_cluster) + index / uint(CULL_GROUP)] : 0u;
+    uint slot = frame.living_band.y > 0.0 ? slots[uint(first_cluster) + index / uint(CULL_GROUP)] : 0u;
     if (slot > 0u) {
-        share = simulated_share(distance(root, frame.eye.xyz), frame.simulated.xy);
+        share = simulated_share(distance(root, frame.eye), frame.living_band);
         state = states[(slot - 1u) * uint(CULL_GROUP) + index % uint(CULL_GROUP)];
     }
     if (share < 1.0) {
@@ -70,7 +70,7 @@ void main() {
     vec3 root = surface_root(blade);
     vec3 up = blade.up_stiffness.xyz;
     float height = blade.v1_height.w;
-    blade_out.root = vec4(root, distance(root, frame.lod_eye.xyz));
+    blade_out.root = vec4(root, distance(root, frame.lod_eye));
     vec3 v1, v2;
     float alive = pose(blade, index, root, v1, v2);
     bool of_set = surface_shape.x < 0.0;
@@ -85,7 +85,7 @@ void main() {
                         : 0.5 * (vec2(dot(v1, up), dot(v2, up)) + height * vec2(0.5, 1.0));
     float species = of_set ? floor(blade.root_direction.w / (2.0 * kPi)) : 0.0;
     blade_out.rest = vec4(above / surface_origin.w, surface_rank_seed(index));
-    blade_out.ground = vec4(dot(up, frame.light.to_sun.xyz), surface_tint(blade.root_direction.xyz), species, alive);
+    blade_out.ground = vec4(dot(up, frame.light.to_sun), surface_tint(blade.root_direction.xyz), species, alive);
     blade_out.across = vec4(surface_width_direction(up, blade.root_direction.w), 0.0);
     gl_Position = vec4(0.0);
 }

@@ -17,7 +17,7 @@ void main() {
         return;
     }
     BladePage page = pages[patch_id / uint(patches_a_page)];
-    if (page.run.z != buffer_number) {
+    if (page.records != buffer_number) {
         return;
     }
     PatchState state = patches[patch_id];
@@ -25,20 +25,20 @@ void main() {
     bool met = spheres.y > 0u;
     bool up = met && state.status != kPatchFree;
     if (state.status == kPatchNew) {
-        up = met || rules.time.w == 0.0;
-    } else if (rules.time.x == 0.0) {
+        up = met || rules.run_up == 0;
+    } else if (rules.step_s == 0.0) {
         up = false;
     } else if (state.status == kPatchAwake) {
         up = true;
     } else if (state.status == kPatchAsleep && !met) {
-        PhysicsRecord first = physics_laid(page, records[page.run.x + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
+        PhysicsRecord first = physics_laid(page, records[page.first + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
         vec3 root = physics_root(page, first, false);
-        up = distance(physics_wind(root.xz), state.wind) > kStillWind_ms;
+        up = distance(physics_wind(root.xz), state.wind) > kStillWind_mps;
     }
     if (up) {
         uint list = state.status == kPatchNew ? kListNew : met || needs_height() ? kListColliding : kListFree;
         // The order varies from run to run; patches know nothing of each other.
-        awake[list * uint(patch_count) + atomicAdd(dispatch[list].x, 1u)] = AwakePatch(page, uvec4(patch_id, spheres, state.status));
+        awake[list * uint(patch_count) + atomicAdd(dispatch[list].x, 1u)] = AwakePatch(page, spheres, patch_id, state.status);
         atomicAdd(stepped[list], 1u);
         // It comes to rest, unless a blade says that it moves: so no workgroup has to wait for its last one.
         patches[patch_id].status = met ? kPatchAwake : kPatchAsleep;

@@ -8,7 +8,7 @@ layout(std430, binding = BIND_BLADE_TILES) readonly buffer Tiles { BladeTile til
 
 // A blade of the set as it lies on a tile.
 BladeRecord tile_blade(uint tile, uint index) {
-    return lay_blade(tiles[tile].lie, blades[index], frame.patch_grid.z);
+    return lay_blade(tiles[tile].lie, blades[index], frame.patch_side_m);
 }
 
 vec3 blade_root(uint tile, BladeRecord blade) {

@@ -23,13 +23,13 @@ struct BladePose {
 float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 v2) {
     int page = int(tiles[which.x].page) - 1;
     float share = page < 0 ? 0.0
-                           : simulated_share(distance(root, frame.eye.xyz), frame.simulated.xy) *
-                                 own_pose_share(blade.root.z, distance(root, frame.lod_eye.xyz), frame.pose_band.xy);
+                           : simulated_share(distance(root, frame.eye), frame.living_band) *
+                                 own_pose_share(blade.root.z, distance(root, frame.lod_eye), frame.pose_band);
     if (share > 0.0) {
-        vec4 state = states[page * int(frame.simulated.z) + int(places[which.y])];
+        vec4 state = states[page * frame.page_blades + int(places[which.y])];
         vec3 own1;
         vec3 own2;
-        simulated_pose(set_blade_shape(blade, frame.patch_grid.w), state, own1, own2);
+        simulated_pose(set_blade_shape(blade, frame.canopy_m), state, own1, own2);
         v1 = mix(v1, own1, share);
         v2 = mix(v2, own2, share);
     }
@@ -40,31 +40,31 @@ float live(uvec2 which, BladeRecord blade, vec3 root, inout vec3 v1, inout vec3 
 BladePose blade_pose(uvec2 which, BladeRecord blade) {
     BladePose pose;
     pose.root = blade_root(which.x, blade);
-    pose.from_eye = distance(pose.root, frame.lod_eye.xyz);
+    pose.from_eye = distance(pose.root, frame.lod_eye);
     pose.v1 = blade.v1.xyz;
     pose.v2 = blade.v2.xyz;
     pose.sway = sway_at(pose.root.xz);
     vec2 wind = pose.sway.wind;
-    float shell = pose_share(blade.root.z, pose.from_eye, frame.pose_band.xy);
-    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), wind);
+    float shell = pose_share(blade.root.z, pose.from_eye, frame.pose_band);
+    pose_blade(pose.v1, pose.v2, vec4(blade.shape.y, frame.canopy_m, frame.wind.response, shell), wind);
     vec2 ahead = track_ahead(pose.root.xz, 0.0, 1.0);
     if (dot(ahead, ahead) > 0.0) {
         vec3 tip1 = blade.v1.xyz;
         vec3 tip2 = blade.v2.xyz;
-        pose_blade(tip1, tip2, vec4(blade.shape.y, frame.patch_grid.w, frame.wind.mean.w, shell), sway_tip(pose.root.xz, pose.sway, ahead));
+        pose_blade(tip1, tip2, vec4(blade.shape.y, frame.canopy_m, frame.wind.response, shell), sway_tip(pose.root.xz, pose.sway, ahead));
         pose.v1 = mix(pose.v1, tip1, 0.5);
         pose.v2 = tip2;
         keep_length(pose.v1, pose.v2, blade.shape.y);
     }
     pose.simulated = live(which, blade, pose.root, pose.v1, pose.v2);
-    float lying = lying_height(pose.sway.lying) * land_height(pose.root.xz, distance(pose.root, frame.eye.xyz) / frame.eye.w);
+    float lying = lying_height(pose.sway.lying) * land_height(pose.root.xz, distance(pose.root, frame.eye) / frame.focal_px);
     if (lying != 1.0) { // after contacts and wind: what lies is lower, and a class's height its own, in every tier by the same factor
         pose.v1.y *= lying;
         pose.v2.y *= lying;
     }
     // Gone where the pose has become the shell image's
-    float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.mean.w);
-    vec3 flutter = flutter_at(frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
+    float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.response);
+    vec3 flutter = flutter_at(frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
     pose.facing = blade.shape.x + flutter.z;
     return pose;

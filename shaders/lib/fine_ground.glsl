@@ -5,22 +5,22 @@
 
 // World place (anchor-relative) to a true one. Posts of a level are whole numbers of half metres: exact in floats.
 vec2 true_place(vec2 xz) {
-    return xz + params.relief.zw;
+    return xz + params.anchor;
 }
 
 bool is_fine(vec2 xz) {
     vec2 from_eye = abs(xz - frame.eye.xz);
-    return max(from_eye.x, from_eye.y) > params.step.y;
+    return max(from_eye.x, from_eye.y) > params.detail_from_m;
 }
 
 // Spacing (m) of the place's level, without steps.
 float fine_spacing(ClipPlace place) {
-    return frame.clip[place.level].w * (1.0 + place.blend);
+    return frame.clip[place.level].spacing_m * (1.0 + place.blend);
 }
 
 // Height above the datum of one level as the mesh has it: linear between its posts.
 float level_height(vec2 xz, int level) {
-    float spacing = frame.clip[level].w;
+    float spacing = frame.clip[level].spacing_m;
     vec2 at = true_place(xz) / spacing;
     vec2 base = floor(at);
     vec2 f = at - base;
@@ -39,12 +39,12 @@ float level_height(vec2 xz, int level) {
 float fine_vertex(vec2 xz, ClipPlace place) {
     float fine = level_height(xz, place.level);
     float coarse = place.blend > 0.0 ? level_height(xz, place.level + 1) : fine;
-    return mix(fine, coarse, place.blend) - frame.grass.w;
+    return mix(fine, coarse, place.blend) - frame.anchor_height_m;
 }
 
 // World y at any place: the surface that the mesh follows.
 float fine_height(vec2 xz, ClipPlace place) {
-    return surface_height(true_place(xz), fine_spacing(place)) - frame.grass.w;
+    return surface_height(true_place(xz), fine_spacing(place)) - frame.anchor_height_m;
 }
 
 // What clipmap_surface.comp stores: slope as a normal's x and z, density by the slope, tint.

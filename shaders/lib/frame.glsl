@@ -6,3 +6,4 @@
 layout(std140, binding = BIND_FRAME) uniform FrameBlock {
     FrameConstants frame;
 };
+#include "shared/sky.h"

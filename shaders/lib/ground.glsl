@@ -23,10 +23,10 @@ ClipPlace clip_place(vec2 xz) {
     vec2 from_eye = abs(xz - frame.eye.xz);
     float distance_m = max(from_eye.x, from_eye.y);
 #ifdef FINE_GROUND
-    distance_m = detail_reach(distance_m, params.step.y, params.step.z);
+    distance_m = detail_reach(distance_m, params.detail_from_m, params.zoom);
 #endif
-    float cells = distance_m / frame.clip[0].w;
-    int last = frame.clip_layout.x - 1;
+    float cells = distance_m / frame.clip[0].spacing_m;
+    int last = frame.clip_levels - 1;
     int level = int(clamp(ceil(log2(max(cells / kBlendEnd, 1e-3))), 0.0, float(last)));
     float own = cells / float(1 << level);
     float blend = level == last ? 0.0 : clamp((own - kBlendStart) / (kBlendEnd - kBlendStart), 0.0, 1.0);
@@ -38,8 +38,8 @@ ClipPlace clip_place(vec2 xz) {
 #endif
 
 vec3 clip_uv(vec2 xz, int level) {
-    vec4 clip = frame.clip[level];
-    return vec3(xz * clip.z + clip.xy, float(level));
+    ClipLevel clip = frame.clip[level];
+    return vec3(xz * clip.per_m + clip.offset, float(level));
 }
 
 // Height of the ground, world y.
@@ -51,8 +51,8 @@ float ground_at(vec2 xz) {
     }
 #endif
     float fine = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r;
-    float coarse = textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0).r;
-    return mix(fine, coarse, place.blend) - frame.grass.w;
+    float coarse = textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0).r;
+    return mix(fine, coarse, place.blend) - frame.anchor_height_m;
 }
 
 struct Ground {
@@ -68,7 +68,7 @@ float mask_density(vec2 xz, float width) {
     if (off_mask(uv)) {
         return 0.0;
     }
-    vec2 texels = vec2(textureSize(mask, 0)) * frame.mask_place.zw;
+    vec2 texels = vec2(textureSize(mask, 0)) * frame.mask_per_m;
     float lod = log2(max(width * max(texels.x, texels.y), 1.0));
     float density = textureLod(mask, uv, lod).r;
     return has_land() ? land_density(density, xz, uv, lod, width) : density;
@@ -78,7 +78,7 @@ float mask_density(vec2 xz, float width) {
 Ground ground_surface(vec2 xz, float width) {
     ClipPlace place = clip_place(xz);
     vec4 fine = textureLod(clip_surface, clip_uv(xz, place.level), 0.0);
-    vec4 coarse = textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_layout.x - 1)), 0.0);
+    vec4 coarse = textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0);
     vec4 s = mix(fine, coarse, place.blend);
     vec2 n = (s.xy * 255.0 - 128.0) / 127.0;
     float density = s.z;
@@ -89,13 +89,13 @@ Ground ground_surface(vec2 xz, float width) {
         density = s.z;
     }
 #endif
-    if (frame.clip_layout.w != kMaskNone) {
-        float height = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.grass.w;
-        float pixel = distance(vec3(xz.x, height, xz.y), frame.eye.xyz) / frame.eye.w;
+    if (frame.mask_mode != kMaskNone) {
+        float height = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.anchor_height_m;
+        float pixel = distance(vec3(xz.x, height, xz.y), frame.eye) / frame.focal_px;
         density = mask_density(xz, max(width, pixel));
         s.w += has_land() ? land_dryness(xz, max(width, pixel)) : 0.0;
     }
-    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.grass.y, s.w);
+    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.density_scale, s.w);
 }
 
 Ground ground_surface(vec2 xz) {

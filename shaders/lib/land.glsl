@@ -14,22 +14,22 @@ const float kEdgeRagged = 0.35;   // of an octave's cells
 const float kAllOrNone = 0.004;   // a byte
 
 bool has_land() {
-    return frame.land.x > 0.0;
+    return frame.land_texel_m > 0.0;
 }
 bool has_heights() {
-    return frame.land.z > 0.0;
+    return frame.land_uneven > 0.0;
 }
 // Greatest height of grass over its height in the set, 1 at least.
 float highest() {
-    return frame.land.y;
+    return frame.land_highest;
 }
 
 // Place in the mask, and in the landcover, which has the same texels.
 vec2 mask_uv(vec2 xz) {
-    return xz * frame.mask_place.zw + frame.mask_place.xy;
+    return xz * frame.mask_per_m + frame.mask_offset;
 }
 bool off_mask(vec2 uv) {
-    return frame.clip_layout.w == kMaskBounded && clamp(uv, vec2(0.0), vec2(1.0)) != uv;
+    return frame.mask_mode == kMaskBounded && clamp(uv, vec2(0.0), vec2(1.0)) != uv;
 }
 
 struct LandEdge {
@@ -39,7 +39,7 @@ struct LandEdge {
 
 // LAND_SMOOTH: without the noise, whose mean is 0; of the march, which asks at every step.
 LandEdge land_edge(vec2 xz, float width) {
-    float soft = clamp(0.5 * width / frame.land.x, 0.01, 0.5);
+    float soft = clamp(0.5 * width / frame.land_texel_m, 0.01, 0.5);
 #ifdef LAND_SMOOTH
     return LandEdge(0.5, max(soft, 0.15));
 #else
@@ -54,7 +54,7 @@ LandEdge land_edge(vec2 xz, float width) {
         size *= 0.5;
     }
     float most = 0.8 * (0.5 - soft); // so that all is all, and none none
-    return LandEdge(0.5 + clamp(aside / frame.land.x, -most, most), soft);
+    return LandEdge(0.5 + clamp(aside / frame.land_texel_m, -most, most), soft);
 #endif
 }
 
@@ -72,7 +72,7 @@ float land_density(float density, vec2 xz, vec2 uv, float lod, float width) {
 }
 
 float land_lod(float width) {
-    return log2(max(width / frame.land.x, 1.0));
+    return log2(max(width / frame.land_texel_m, 1.0));
 }
 
 // Factor on the height of grass.
@@ -84,7 +84,7 @@ float land_height(vec2 xz, float width) {
     float lod = land_lod(width);
     float bearing = 1.0 - textureLod(land_ground, uv, lod).a;
     float height = textureLod(land_cover, uv, lod).r;
-    return bearing <= kAllOrNone ? 1.0 : clamp(kMostHeight * height / bearing, 0.1, frame.land.y);
+    return bearing <= kAllOrNone ? 1.0 : clamp(kMostHeight * height / bearing, 0.1, frame.land_highest);
 }
 
 float land_dryness(vec2 xz, float width) {

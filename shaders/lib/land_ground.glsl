@@ -122,5 +122,5 @@ vec3 water_radiance(vec2 xz, vec3 to_eye, float width) {
     float grazing = 1.0 - max(dot(normal, to_eye), 0.0);
     float fresnel = 0.02 + 0.98 * grazing * grazing * grazing * grazing * grazing;
     vec3 deep = vec3(0.012, 0.022, 0.018) * (frame.light.sun.rgb * max(frame.light.to_sun.y, 0.0) + even_sky(frame.light));
-    return mix(deep, sky_radiance(frame.light, mirrored), fresnel);
+    return mix(deep, sky_radiance(mirrored), fresnel);
 }

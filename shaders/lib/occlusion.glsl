@@ -12,11 +12,11 @@ bool occluded(vec3 centre, float radius) {
     if (nearest < frame.near_m) {
         return false;
     }
-    vec2 picture = vec2(frame.clip_layout.yz);
+    vec2 picture = vec2(frame.picture_px);
     vec2 middle = (0.5 + 0.5 * clip.xy / clip.w) * picture;
     // Off the axis a sphere's image is an ellipse: as long as this at most, by the cosine to the axis.
-    vec3 to = centre - frame.eye.xyz;
-    float reach = radius * frame.eye.w / nearest * length(to) / clip.w + 1.0;
+    vec3 to = centre - frame.eye;
+    float reach = radius * frame.focal_px / nearest * length(to) / clip.w + 1.0;
     vec2 low = middle - reach, high = middle + reach;
     if (any(lessThan(low, vec2(0.0))) || any(greaterThanEqual(high, picture))) {
         return false;

@@ -8,13 +8,13 @@ layout(std140, binding = BIND_SURFACE) uniform SurfaceBlock { SurfaceParams para
 layout(binding = TEX_ELEVATION) uniform sampler2D elevation;
 
 float post(ivec2 at) {
-    return texelFetch(elevation, clamp(at, ivec2(0), ivec2(params.grid.xy) - 1), 0).r;
+    return texelFetch(elevation, clamp(at, ivec2(0), params.posts - 1), 0).r;
 }
 
 // Height above the datum at a true world place, for a grid of `spacing` metres.
 float surface_height(vec2 xz, float spacing) {
-    vec2 posts = params.grid.xy - 1.0;
-    vec2 at = clamp(xz / params.grid.zw + 0.5 * posts, vec2(0.0), posts);
+    vec2 posts = vec2(params.posts - 1);
+    vec2 at = clamp(xz / params.post_m + 0.5 * posts, vec2(0.0), posts);
     vec2 base = floor(at);
     vec2 f = at - base;
     ivec2 first = ivec2(base) - 1;
@@ -23,5 +23,5 @@ float surface_height(vec2 xz, float spacing) {
         rows[j] = catmull_rom(vec4(post(first + ivec2(0, j)), post(first + ivec2(1, j)), post(first + ivec2(2, j)),
                                    post(first + ivec2(3, j))), f.x);
     }
-    return catmull_rom(rows, f.y) + relief_at(xz, params.relief.x, spacing);
+    return catmull_rom(rows, f.y) + relief_at(xz, params.relief_m, spacing);
 }

@@ -15,6 +15,6 @@ vec3 surface_root(SurfaceBlade blade) {
 
 // Factor on the width of a blade, 0: left out (J7's distance test). The paper's distance is the one along the surface's plane.
 float surface_width_share(uint index, vec3 root, vec3 up) {
-    vec3 away = root - frame.lod_eye.xyz;
+    vec3 away = root - frame.lod_eye;
     return distance_width(surface_rank_seed(index).x, distance_share(length(away - up * dot(away, up)), surface_thin_out));
 }

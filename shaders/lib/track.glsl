@@ -9,18 +9,18 @@ layout(binding = TEX_TRACK_SHOWN) uniform usamplerBuffer track_shown;
 layout(binding = TEX_TRACK_TABLE) uniform isamplerBuffer track_table;
 
 bool has_tracks() {
-    return frame.tracks.page.z > 0;
+    return frame.tracks.table_mask > 0;
 }
 
 // Slot of a page and whether something moves in it; -1: it has none.
 ivec2 track_slot(ivec2 page) {
-    int at = track_hash(page) & frame.tracks.page.z;
+    int at = track_hash(page) & frame.tracks.table_mask;
     for (int n = 0; n < 64; ++n) {
         ivec4 entry = texelFetch(track_table, at);
         if (entry.z < 0 || entry.xy == page) {
             return entry.zw;
         }
-        at = (at + 1) & frame.tracks.page.z;
+        at = (at + 1) & frame.tracks.table_mask;
     }
     return ivec2(-1, 0);
 }
@@ -28,7 +28,7 @@ ivec2 track_slot(ivec2 page) {
 // A cell's texel in the pool of what moves; -1: at rest.
 int track_moving(int slot, ivec2 cell) {
     int block = track_block_of(cell);
-    int place = texelFetch(track_table, frame.tracks.page.z + 1 + slot * (kTrackBlocks / 4) + block / 4)[block % 4];
+    int place = texelFetch(track_table, frame.tracks.table_mask + 1 + slot * (kTrackBlocks / 4) + block / 4)[block % 4];
     return place < 0 ? -1 : place * kTrackBlock * kTrackBlock + track_in_block(cell);
 }
 
@@ -44,7 +44,7 @@ TrackSeen track_texel(ivec2 cell, int level, inout ivec2 page, inout ivec2 slot)
     ivec2 own = ivec2(floor(vec2(cell) / float(side)));
     if (own != page) {
         page = own;
-        slot = track_slot(own + frame.tracks.page.xy);
+        slot = track_slot(own + frame.tracks.page);
     }
     ivec2 within = cell - own * side;
     if (slot.x < 0) {
@@ -70,8 +70,9 @@ TrackSeen track_of_level(vec2 xz, int level) {
 }
 
 bool track_within(vec2 xz, float beyond) {
-    vec4 bounds = frame.tracks.bounds;
-    return has_tracks() && xz.x >= bounds.x - beyond && xz.y >= bounds.y - beyond && xz.x <= bounds.z + beyond && xz.y <= bounds.w + beyond;
+    vec2 least = frame.tracks.least;
+    vec2 most = frame.tracks.most;
+    return has_tracks() && xz.x >= least.x - beyond && xz.y >= least.y - beyond && xz.x <= most.x + beyond && xz.y <= most.y + beyond;
 }
 
 // What is seen over `width` metres around a place.
@@ -79,13 +80,13 @@ TrackSeen track_at(vec2 xz, float width) {
     if (!track_within(xz, 0.0)) {
         return track_nothing();
     }
-    float level = clamp(log2(max(width * frame.tracks.place.z, 1.0)), 0.0, float(kTrackLevels - 1));
+    float level = clamp(log2(max(width * frame.tracks.per_m, 1.0)), 0.0, float(kTrackLevels - 1));
     int fine = int(level);
     TrackSeen found = track_of_level(xz, fine);
     if (level > float(fine)) {
         found = track_mean(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)), level - float(fine));
     }
-    float left = frame.tracks.place.w;
+    float left = frame.tracks.left;
     found.pressed *= left;
     found.axis *= left;
     found.lying *= left;
@@ -95,12 +96,12 @@ TrackSeen track_at(vec2 xz, float width) {
 // C3: how far ahead a part of the stem (`share`, 0 root .. 1 tip) has its bend from; nothing where all is at rest, or seen so coarsely that it is less
 // than a cell.
 vec2 track_ahead(vec2 xz, float width, float share) {
-    if (width * frame.tracks.place.z > 2.0 || !track_within(xz, 0.0)) {
+    if (width * frame.tracks.per_m > 2.0 || !track_within(xz, 0.0)) {
         return vec2(0.0);
     }
     ivec2 cell = ivec2(floor(track_level_place(frame.tracks, xz, 0) + 0.5));
     ivec2 page = ivec2(floor(vec2(cell) / float(kTrackCells)));
-    ivec2 slot = track_slot(page + frame.tracks.page.xy);
+    ivec2 slot = track_slot(page + frame.tracks.page);
     if (slot.x < 0 || slot.y == 0) {
         return vec2(0.0);
     }
@@ -109,14 +110,14 @@ vec2 track_ahead(vec2 xz, float width, float share) {
         return vec2(0.0);
     }
     vec4 bend = texelFetch(track_bends, at);
-    return track_delay(bend.xy, bend.zw, share, vec2(frame.tracks.page.w & 65535, frame.tracks.page.w >> 16) * 1e-3);
+    return track_delay(bend.xy, bend.zw, share, vec2(frame.tracks.wave_mps, frame.tracks.wave_gain_m));
 }
 
 // Of a footprint that is longer than wide, as that of a ray low over the ground: `along`, its length, one way.
 const int kTrackTaps = 6;
 TrackSeen track_along(vec2 xz, float width, vec2 along) {
     float run = length(along);
-    int taps = clamp(int(ceil(run / max(width, 1.0 / frame.tracks.place.z))), 1, kTrackTaps);
+    int taps = clamp(int(ceil(run / max(width, 1.0 / frame.tracks.per_m))), 1, kTrackTaps);
     if (taps == 1 || !track_within(xz, 0.5 * run)) {
         return track_at(xz, max(width, run));
     }

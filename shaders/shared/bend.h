@@ -20,16 +20,16 @@ SHARED_FN vec2 bend_arc(float s, float stem, float intensity) {
 }
 
 // Load of the wind on grass over its stiffness (Cauchy number, scaled): `response` is 1 / (m/s). The square is drag's.
-SHARED_FN float wind_load(float speed_ms, float response) {
-    float x = speed_ms * response;
+SHARED_FN float wind_load(float speed_mps, float response) {
+    float x = speed_mps * response;
     return x * x;
 }
 
 // Wind speed (m/s) to bend intensity (W6). An elastic fibre clamped in a cross flow turns its tip by 90 degrees * I; drag on what it
 // still holds against the wind is all that bends it further, so I starts as 2/3 of the load and nears 1 as load^(-2/3): blades
 // reconfigure, they do not flatten. Within 0.06 of the fibre's own curve, integrated (tests). In [0, 1): a canopy keeps 2 / pi of its height.
-SHARED_FN float bend_intensity(float speed_ms, float response) {
-    return 1.0f - pow(1.0f + wind_load(speed_ms, response), -2.0f / 3.0f);
+SHARED_FN float bend_intensity(float speed_mps, float response) {
+    return 1.0f - pow(1.0f + wind_load(speed_mps, response), -2.0f / 3.0f);
 }
 
 // Displacement of the point at rest height y in a canopy of height `canopy` under the wind (m/s): the far tier's warp.
@@ -96,8 +96,8 @@ SHARED_FN float flutter_cycles(float stem, float stiffness) {
 }
 
 // Amplitude of flutter at the tip over the blade's length: as the load at first, saturating (W6).
-SHARED_FN float flutter_amplitude(float speed_ms, float response) {
-    float load = wind_load(speed_ms, response);
+SHARED_FN float flutter_amplitude(float speed_mps, float response) {
+    float load = wind_load(speed_mps, response);
     return 0.17f * load / (1.0f + load);
 }
 

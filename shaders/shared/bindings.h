@@ -116,6 +116,7 @@
 #define TEX_TRACK_BENDS 14     // RGBA32F buffer: theta, omega of the blocks that move
 #define TEX_TRACK_SHOWN 28     // R32UI buffer: kTrackWords a page
 #define TEX_TRACK_TABLE 29     // RGBA32I buffer: page x, z; its slot, -1: none; 1 where something moves: a hashed table; then each slot's blocks
+#define TEX_LAND_SHADOW 30      // RG16F: heights over the ground at which the sun begins to be seen and is wholly seen (m)
 #define TEX_FAR_SHAPES 15       // BC5 array beside far_images, where the set has one: tangent and root offset of its images
 #define TEX_LAND_COVER 32       // RGBA8: of a landcover factor on height times where grass may stand, dryness, share of water, of asphalt
 #define TEX_LAND_GROUND 33      // RGBA8: share of gravel, of sand, of rock; where no grass can stand

@@ -19,6 +19,14 @@ struct BladeRecord {
 static_assert(sizeof(BladeRecord) == 64);
 #endif
 
+// Of a species' blades, as blade_width_at() takes it. 16 bytes.
+struct BladeOutline {
+    float taper;     // its power
+    float stalk;     // its width over the head's
+    float head_from; // v where the head begins, 1: none
+    float fullness;  // of the head
+};
+
 // Point of the quadratic Bezier (root at 0) at parameter v (J8, c).
 SHARED_FN vec3 blade_curve(vec3 v1, vec3 v2, float v) {
     return 2.0f * v * (1.0f - v) * v1 + v * v * v2;
@@ -44,22 +52,21 @@ SHARED_FN vec3 blade_width_direction(float facing) {
 
 // Half width at v over the greatest half width. A blade tapers as 1 - v^p (J8: p = 2 is the quadratic one, 1 the triangle). Seed heads,
 // flowers and leaves are the same strip with a head on a thin stalk: (4 t (1 - t))^q over it, q = 1/2 an ellipse, 1 a spindle.
-// `outline`: GrassAppearance::outline.
-SHARED_FN float blade_width_at(float v, vec4 outline) {
-    float stalk = outline.y * (1.0f - pow(v, outline.x));
-    float t = clamp((v - outline.z) / max(1.0f - outline.z, 1e-3f), 0.0f, 1.0f);
-    return max(stalk, outline.z < 1.0f ? pow(4.0f * t * (1.0f - t), outline.w) : 0.0f);
+SHARED_FN float blade_width_at(float v, BladeOutline outline) {
+    float stalk = outline.stalk * (1.0f - pow(v, outline.taper));
+    float t = clamp((v - outline.head_from) / max(1.0f - outline.head_from, 1e-3f), 0.0f, 1.0f);
+    return max(stalk, outline.head_from < 1.0f ? pow(4.0f * t * (1.0f - t), outline.fullness) : 0.0f);
 }
 
 // Where u in [0, 1] across the blade lands between its left (0) and right (1) rim at v. Written about the middle: the printed u - u v^2
 // has the same width but pins the left rim.
-SHARED_FN float blade_outline(float u, float v, vec4 outline) {
+SHARED_FN float blade_outline(float u, float v, BladeOutline outline) {
     return 0.5f + (u - 0.5f) * blade_width_at(v, outline);
 }
 
 // v of the mesh's station t in [0, 1]: half of the stations stand on the head, where there is one.
-SHARED_FN float blade_station(float t, vec4 outline) {
-    float head = outline.z;
+SHARED_FN float blade_station(float t, BladeOutline outline) {
+    float head = outline.head_from;
     return head >= 1.0f ? t : t < 0.5f ? 2.0f * t * head : head + (2.0f * t - 1.0f) * (1.0f - head);
 }
 

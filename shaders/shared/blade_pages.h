@@ -9,9 +9,12 @@ SHARED_BEGIN
 
 // A slot of the pool. 32 bytes. On a mesh a page is one cluster of it.
 struct BladePage {
-    vec4 place;  // x, z of the tile's corner, anchor-relative (m); side of the patch (m); of a mesh: x, y, z of its origin
-    ivec4 run;   // first blade of its variant in the Morton order; blades in it, 0: the slot is free; number of the buffer of records; lie of the
-                 // patch on the tile (shared/tile_lie.h), unused of a mesh
+    vec3 origin;   // anchor-relative (m): of the tile's corner x, z; of a mesh
+    float side_m;  // of the patch, unused of a mesh
+    int first;     // blade of its variant in the Morton order
+    int blades;    // in it, 0: the slot is free
+    int records;   // number of the buffer of records
+    uint lie;      // of the patch on the tile (shared/tile_lie.h), unused of a mesh
 };
 
 SHARED_CONST uint kPatchFree = 0u;
@@ -35,7 +38,9 @@ SHARED_CONST uint kPatchLists = 3u;
 // An entry of a list: all that a workgroup must know of its patch before it looks at a blade. 48 bytes.
 struct AwakePatch {
     BladePage page;
-    uvec4 work; // number of the patch; its colliders' first number and their count; status
+    uvec2 colliders; // their first number and their count
+    uint number;     // of the patch
+    uint status;     // kPatch*
 };
 #ifdef __cplusplus
 static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16 && sizeof(AwakePatch) == 48);
@@ -44,7 +49,7 @@ static_assert(sizeof(BladePage) == 32 && sizeof(PatchState) == 16 && sizeof(Awak
 // A patch falls asleep when no blade remembers a push and none moves by more than this part of its length in a step; it then is
 // within a thirtieth of a percent of its balance.
 SHARED_CONST float kStillMove = 2e-6f;
-SHARED_CONST float kStillWind_ms = 0.002f; // change of wind that wakes it
+SHARED_CONST float kStillWind_mps = 0.002f; // change of wind that wakes it
 
 // Weight of the simulated pose against the grouped one at a distance from the eye; band: start and end of the fade (m).
 SHARED_FN float simulated_share(float distance_m, vec2 band) {

@@ -6,20 +6,9 @@
 #define SWARD_SHARED_BLADE_PHYSICS_H
 #include "shared/bend.h"
 #include "shared/blade.h"
+#include "shared/blade_step.h"
 
 SHARED_BEGIN
-
-// What all blades share in a step. 64 bytes.
-struct BladeStep {
-    vec4 down;    // direction of gravity, unit; its strength (m/s^2)
-    vec4 centre;  // anchor-relative place that draws the blades (a planet's middle); its strength (m/s^2)
-    vec4 memory;  // loss of eta (1/s); eta that a push by the blade's own length brings; its bound; share of `centre`, 0..1
-    vec4 time;    // step (s), 0: new blades are set up and none moves; canopy (m); response of the grouped pose, 1 / (m/s), 0: each blade's own; 1 in
-                  // a run-up, where blades that nothing has pushed yet are left alone
-};
-#ifdef __cplusplus
-static_assert(sizeof(BladeStep) == 64);
-#endif
 
 // A blade as a step sees it. `calm1`, `calm2`: control points in still air, the equilibrium of recovery and gravity.
 struct BladeBody {
@@ -43,10 +32,18 @@ SHARED_CONST int kCollisionRounds = 16;       // J6 and J5 in turn, until nothin
 // A step under gravity that draws straight down.
 SHARED_FN BladeStep plain_blade_step(float step_s, float canopy, float response) {
     BladeStep rules;
-    rules.down = vec4(0.0f, -1.0f, 0.0f, kStandardGravity);
-    rules.centre = vec4(0.0f, 0.0f, 0.0f, 0.0f);
-    rules.memory = vec4(kMemoryLoss, kMemoryGain, kMemoryMost, 0.0f);
-    rules.time = vec4(step_s, canopy, response, 0.0f);
+    rules.down = vec3(0.0f, -1.0f, 0.0f);
+    rules.gravity_mps2 = kStandardGravity;
+    rules.centre = vec3(0.0f, 0.0f, 0.0f);
+    rules.centre_mps2 = 0.0f;
+    rules.memory_loss = kMemoryLoss;
+    rules.memory_gain = kMemoryGain;
+    rules.memory_most = kMemoryMost;
+    rules.centre_share = 0.0f;
+    rules.step_s = step_s;
+    rules.canopy_m = canopy;
+    rules.response = response;
+    rules.run_up = 0;
     return rules;
 }
 
@@ -76,10 +73,10 @@ SHARED_FN float bezier_length(vec3 v1, vec3 v2) {
 // J4's g: environmental and front gravity. `mobility` (s): its speed under a weight of 1 m/s^2; recovery * length * sag / 9.81 pulls the
 // tip by `sag` of its length from where recovery alone would hold it. `front`: unit, square to the width direction.
 SHARED_FN vec3 blade_gravity(BladeStep rules, vec3 root, vec3 front, float mobility) {
-    vec3 to_centre = vec3(rules.centre.x, rules.centre.y, rules.centre.z) - root;
-    vec3 drawn = to_centre * (rules.centre.w / max(length(to_centre), 1e-6f));
-    vec3 down = vec3(rules.down.x, rules.down.y, rules.down.z) * rules.down.w;
-    vec3 environment = mobility * mix(down, drawn, rules.memory.w);
+    vec3 to_centre = rules.centre - root;
+    vec3 drawn = to_centre * (rules.centre_mps2 / max(length(to_centre), 1e-6f));
+    vec3 down = rules.down * rules.gravity_mps2;
+    vec3 environment = mobility * mix(down, drawn, rules.centre_share);
     return environment + 0.25f * length(environment) * front;
 }
 
@@ -103,7 +100,7 @@ SHARED_FN BladeBody set_blade_shape(BladeRecord blade, float canopy) {
 
 // Its baked curve is its calm pose, so gravity shows only where recovery is weak.
 SHARED_FN BladeBody set_blade_body(BladeStep rules, BladeRecord blade, vec3 root) {
-    BladeBody body = set_blade_shape(blade, rules.time.y);
+    BladeBody body = set_blade_shape(blade, rules.canopy_m);
     vec3 width = blade_width_direction(blade.shape.x);
     vec3 front = vec3(-width.z, 0.0f, width.x);
     front = dot(front, body.calm2) < 0.0f ? -front : front;
@@ -134,9 +131,9 @@ SHARED_FN vec3 settle_blade(BladeBody body, SHARED_INOUT(vec3) v2) {
 
 // Drag (m/s) on an upright blade that J4 holds in balance where W6 and B3 put its tip: at the angle a from upright, J5.3 takes
 // what acts along the blade, so s stem tan a = drag * fd * fr with fd = 1 - sin a, fr = rise / stem.
-SHARED_FN float blade_drag(BladeBody body, float speed_ms) {
+SHARED_FN float blade_drag(BladeBody body, float speed_mps) {
     float stem = body.stem_canopy.x;
-    vec2 tip = bend_arc(stem, max(body.stem_canopy.y, stem), bend_intensity(speed_ms, body.response));
+    vec2 tip = bend_arc(stem, max(body.stem_canopy.y, stem), bend_intensity(speed_mps, body.response));
     float lean = tip.y / tip.x;
     float along = lean / sqrt(1.0f + lean * lean); // sin a
     return body.recovery * stem * stem * lean / ((1.0f - along) * tip.x);
@@ -221,17 +218,17 @@ SHARED_FN float blade_depth(vec3 v1, vec3 v2, vec4 now_radius) {
 // J4 without collisions, and J5: moves the tip by one step. eta falls; recovery is weaker while it lasts. The tip's rest place is
 // calm2 - g / s, so that recovery and gravity balance in the calm pose: r + g = g (1 - k) - s k (v2 - calm2).
 SHARED_FN vec3 move_blade(BladeStep rules, BladeBody body, vec3 wind, SHARED_INOUT(vec3) v2, SHARED_INOUT(float) eta) {
-    eta = max(eta - rules.memory.x * rules.time.x, 0.0f);
+    eta = max(eta - rules.memory_loss * rules.step_s, 0.0f);
     float k = max(1.0f - eta, kLeastRecovery);
     vec3 rate = (1.0f - k) * body.gravity - (body.recovery * k) * (v2 - body.calm2) + blade_wind(body, v2, wind);
-    v2 = v2 + rate * rules.time.x;
+    v2 = v2 + rate * rules.step_s;
     return settle_blade(body, v2);
 }
 
 // What J6 adds to eta for a shift of the tip by all colliders of a step.
 SHARED_FN float remember_push(BladeStep rules, BladeBody body, vec3 push, float eta) {
     float part = length(push) / body.stem_canopy.x;
-    return min(eta + rules.memory.y * part * part, max(rules.memory.z, eta));
+    return min(eta + rules.memory_gain * part * part, max(rules.memory_most, eta));
 }
 
 // The tip that a state means; calm for one that no blade can be in (NaN, infinite, farther than the blade is long).

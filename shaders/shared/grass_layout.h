@@ -8,6 +8,7 @@
 // x = const) u runs along +z, in z-slices (planes z = const) along +x, and v up from the ground to the canopy's top.
 #ifndef SWARD_SHARED_GRASS_LAYOUT_H
 #define SWARD_SHARED_GRASS_LAYOUT_H
+#include "shared/blade.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -65,17 +66,29 @@ SHARED_FN float decode_along(int code) {
     return (float(code % kAlongSteps) + 0.5f) / float(kAlongSteps);
 }
 
+// Weights and powers of G4: kd, pd, ks, ps. 16 bytes.
+struct GrassGloss {
+    float diffuse;
+    float diffuse_power;
+    float specular;
+    float specular_power;
+};
+
 // How a species looks to the shading function (linear reflectance), and the outline of its blades. 96 bytes.
 struct GrassAppearance {
-    vec4 root; // rgb at the root; a: share of dry blades 0..1
-    vec4 tip;  // rgb at the tip; a: variation of hue and value between blades 0..1
-    vec4 dry;  // rgb of a dry blade; a: translucency 0..1
-    vec4 light; // kd, pd (diffuse weight, power), ks, ps (specular weight, power) of G4
-    vec4 head; // rgb of the head: seeds, petals, the blade of a leaf; a: unused
-    vec4 outline; // power of the taper; width of the stalk over the head's; v where the head begins, 1: none; its fullness
+    vec3 root;          // colour there
+    float dry_share;    // of blades, 0..1
+    vec3 tip;           // colour there
+    float variation;    // of hue and value between blades, 0..1
+    vec3 dry;           // colour of a dry blade
+    float translucency; // 0..1
+    GrassGloss gloss;
+    vec3 head;          // colour of the head: seeds, petals, the blade of a leaf
+    float unused;       // to 16 bytes
+    BladeOutline outline;
 };
 #ifdef __cplusplus
-static_assert(sizeof(GrassAppearance) == 96);
+static_assert(sizeof(GrassGloss) == 16 && sizeof(GrassAppearance) == 96);
 #endif
 
 SHARED_END

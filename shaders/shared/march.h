@@ -222,10 +222,10 @@ SHARED_FN float march_reach(MarchPath path, float y) {
 SHARED_FN MarchPlan march_look(MARCH_MEDIUM MarchPath path, vec3 pixel_before_density) {
     MarchPlan plan;
     plan.density = max(pixel_before_density.z, 1e-3f);
-    vec3 velocity = march_velocity(path, 0.6f * medium.size.y, 0.0f);
+    vec3 velocity = march_velocity(path, 0.6f * medium.canopy_m, 0.0f);
     plan.level = vec2(velocity.x, velocity.z);
     // Over the ground, which may slope: images and tables lie in its plane. Blades do not: what they cover is by the ray's own way.
-    float fall = abs(path.height.y) / max(march_turn(path.bend.z * 0.6f * medium.size.y).y, 0.05f);
+    float fall = abs(path.height.y) / max(march_turn(path.bend.z * 0.6f * medium.canopy_m).y, 0.05f);
     plan.elevation = atan(fall / max(length(plan.level), 1e-4f)) * (180.0f / kPi);
     float at = plan.elevation / 5.0f;
     int row = clamp(int(at), 0, kMarchElevations - 2);
@@ -251,9 +251,9 @@ inline void fill_views(MarchMedium& medium) {
         float elevation = max(5.0f * float(i), 1.0f) * (kPi / 180.0f);
         MarchPath path;
         path.way = vec3(cos(elevation) * 0.70710678f, -sin(elevation), cos(elevation) * 0.70710678f);
-        path.from = vec3(0.0f, medium.size.y, 0.0f);
-        path.height = vec4(medium.size.y, path.way.y, 0.0f, -medium.size.y / path.way.y);
-        path.bend = vec4(1.0f, 0.0f, 0.0f, medium.size.y);
+        path.from = vec3(0.0f, medium.canopy_m, 0.0f);
+        path.height = vec4(medium.canopy_m, path.way.y, 0.0f, -medium.canopy_m / path.way.y);
+        path.bend = vec4(1.0f, 0.0f, 0.0f, medium.canopy_m);
         MarchWalk whole = march_begin(path);
         float depth = march_advance(medium, path, whole, vec3(1e9f, 1e9f, 1.0f));
         float seen = 1.0f - exp(-min(depth, 20.0f));
@@ -274,22 +274,22 @@ inline void fill_views(MarchMedium& medium) {
 SHARED_FN void march_choose(MARCH_MEDIUM SHARED_INOUT(MarchPlan) plan, float dither) {
     float level = max(length(plan.level), 1e-4f);
     plan.axis = (abs(plan.level.x) - abs(plan.level.y)) / level > 0.04f * (0.5f - dither) ? 0 : 1;
-    float columns = max(smoothstep(kSteepFrom, kSteepTo, plan.elevation), smoothstep(kColumnFrom, kColumnTo, plan.footprint / medium.size.x));
+    float columns = max(smoothstep(kSteepFrom, kSteepTo, plan.elevation), smoothstep(kColumnFrom, kColumnTo, plan.footprint / medium.side_m));
     if (columns > dither) {
         plan.kind = kMarchColumns;
         return;
     }
     float angle = plan.elevation * (kPi / 180.0f);
     float steepness = max(sin(angle) / max(cos(angle), 1e-3f), 1e-3f);
-    float gap = min(4.5f * plan.footprint, 0.25f * medium.size.y / steepness);
-    float set = clamp(march_mip(gap, medium.size.x) - 4.0f, 0.0f, 2.0f); // 2^4 texels: a slab of the finest set
+    float gap = min(4.5f * plan.footprint, 0.25f * medium.canopy_m / steepness);
+    float set = clamp(march_mip(gap, medium.side_m) - 4.0f, 0.0f, 2.0f); // 2^4 texels: a slab of the finest set
     float whole = min(floor(set), 1.0f);
     plan.kind = int(whole) + (smoothstep(0.44f, 0.56f, set - whole) > dither ? 1 : 0);
 }
 
 // Mips, steps and place in the correction table of a plan whose kind is chosen.
 SHARED_FN void march_settle(MARCH_MEDIUM SHARED_INOUT(MarchPlan) plan) {
-    float side = medium.size.x;
+    float side = medium.side_m;
     float p = plan.footprint;
     if (plan.kind == kMarchColumns) {
         int least = p < 0.15f * side ? 12 : 8;
@@ -333,13 +333,13 @@ SHARED_FN MarchStep march_column(MARCH_MEDIUM MarchPath path, MarchPlan plan, SH
     taken.rest.x += path.way.x * tap;
     taken.rest.z += path.way.z * tap;
     float own = kStepBlur * (walk.s - from) * length(vec2(path.way.x, path.way.z));
-    taken.mip = max(plan.mip, march_mip(max(own, kTapBlur * plan.stretch / n), medium.size.x));
+    taken.mip = max(plan.mip, march_mip(max(own, kTapBlur * plan.stretch / n), medium.side_m));
     return taken;
 }
 
 // s of the next plane between slabs, and never so near that a step is nothing.
 SHARED_FN float march_next_plane(MARCH_MEDIUM MarchPath path, MarchPlan plan, float s) {
-    float gap = medium.size.x / float(kFinestSlabs >> plan.kind);
+    float gap = medium.side_m / float(kFinestSlabs >> plan.kind);
     vec3 rest = march_rest(path, s);
     vec3 velocity = march_velocity(path, rest.y, s);
     float along = plan.axis == 0 ? velocity.x : velocity.z;
@@ -385,7 +385,7 @@ SHARED_FN vec3 march_texel(MARCH_MEDIUM MarchPlan plan, MarchStep taken, vec3 pl
     float across = plan.axis == 0 ? place_variant.x : place_variant.y;
     int slab = clamp(int(floor(fract(across) * float(count))), 0, count - 1);
     float along = plan.axis == 0 ? place_variant.y : place_variant.x;
-    return vec3(along, taken.rest.y / medium.size.y, float((int(place_variant.z) * 2 + plan.axis) * count + slab));
+    return vec3(along, taken.rest.y / medium.canopy_m, float((int(place_variant.z) * 2 + plan.axis) * count + slab));
 }
 
 // Optical depth of blades whose area along a step is `area` times the way. In the thickness of a step blades stand beside rather than behind each

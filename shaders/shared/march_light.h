@@ -77,10 +77,10 @@ SHARED_FN void march_stand(MARCH_MEDIUM SHARED_INOUT(GrassSums) sums, Light ligh
     float level = max(length(vec2(to_eye.x, to_eye.z)), 1e-4f);
     sums.tangent = sums.tangent + vec3(to_eye.x, 0.0f, to_eye.z) * (lean * sums.along / level);
     float higher = known.w * max(rise, 0.0f);
-    float sun = exp(light.to_sun.w * higher / max(ground.slope, 0.12f)); // canopy_sun's
+    float sun = exp(light.sun_extinction * higher / max(ground.slope, 0.12f)); // canopy_sun's
     sums.sunlit = sums.sunlit * sun;
     sums.sun = sums.sun * sun;
-    sums.skylit = sums.skylit * exp(light.zenith.w * higher);
+    sums.skylit = sums.skylit * exp(light.sky_extinction * higher);
 }
 
 // Radiance of the sums toward the eye, times the share of the pixel that they are.
@@ -89,7 +89,7 @@ SHARED_FN vec3 march_radiance(MARCH_MEDIUM Light light, GrassSums gathered, vec3
     float evenness = length(sums.tangent);
     sums.along = along_axis(min(evenness / max(gathered.along, 1e-6f), 1.0f));
     sums.tangent = sums.tangent / max(evenness, 1e-6f);
-    return shade_sums(medium.look, medium.size.z, light, sums, to_eye);
+    return shade_sums(medium.gloss, medium.translucency, light, sums, to_eye);
 }
 
 SHARED_END

@@ -2,6 +2,7 @@
 // What the far field's march knows of a grass set beside its textures, and the sizes of those.
 #ifndef SWARD_SHARED_MARCH_MEDIUM_H
 #define SWARD_SHARED_MARCH_MEDIUM_H
+#include "shared/grass_layout.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -31,8 +32,11 @@ struct MarchMedium {
     // falls by half a metre a metre along the ray, is level, and rises so; w: by how much higher they stand at rest, of the canopy's height, where it
     // rises so than on level ground. Blades stand upright on any ground: one that leans downhill stands higher over the ground under its tip than it is long.
     vec4 slopes[kMarchElevations];
-    vec4 look; // kd, pd, ks, ps of G4: means of the species by what is seen of them
-    vec4 size; // side of the patch (m); canopy (m); translucency, likewise; variants
+    GrassGloss gloss;   // mean of the species by what is seen of them
+    float side_m;       // of the patch
+    float canopy_m;
+    float translucency; // mean, likewise
+    int variants;
 };
 #ifdef __cplusplus
 static_assert(sizeof(MarchMedium) == 16 * (4 * kMarchLayers + 1 + 2 * kMarchElevations + 2));

@@ -5,6 +5,7 @@
 #define SWARD_SHARED_SHADING_H
 #include "shared/grass_layout.h"
 #include "shared/hash.h"
+#include "shared/light.h"
 #include "shared/types.h"
 
 SHARED_BEGIN
@@ -14,17 +15,6 @@ SHARED_BEGIN
 SHARED_CONST float kSunExtinction = 0.55f;
 SHARED_CONST float kSkyExtinction = 1.1f;
 
-// Sun and sky, linear. 64 bytes.
-struct Light {
-    vec4 to_sun;  // unit direction; w: extinction of sunlight by the whole canopy at zenith (optical depth)
-    vec4 sun;     // rgb irradiance on a plane facing the sun / pi; w: haze per metre
-    vec4 zenith;  // rgb sky radiance overhead; w: extinction of skylight by the whole canopy
-    vec4 horizon; // rgb sky radiance at the horizon; w: exposure
-};
-#ifdef __cplusplus
-static_assert(sizeof(Light) == 64);
-#endif
-
 // Colour of a blade at place v along it (0 root .. 1 tip). rank and seed make it this blade's own, in every tier. `detail` 1: its
 // own; 0: the mean of all blades, for pixels that hold many of them. The mean over blades is the same at every detail.
 SHARED_FN vec3 blade_albedo(GrassAppearance look, vec2 rank_seed, float v, float detail) {
@@ -33,14 +23,14 @@ SHARED_FN vec3 blade_albedo(GrassAppearance look, vec2 rank_seed, float v, float
     float value = (float((h >> 8u) & 255u) / 255.0f - 0.5f) * detail;
     float dryness = float(h >> 16u) / 65536.0f;
     // A dry blade is dry all over; of the others two in five are at the tip.
-    float dry_share = look.root.w;
+    float dry_share = look.dry_share;
     float tip = 0.5f * smoothstep(0.75f, 1.0f, v);
     float own_dry = dryness < dry_share ? 0.85f : dryness > 1.0f - 0.4f * (1.0f - dry_share) ? tip : 0.0f;
     float mean_dry = 0.85f * dry_share + 0.4f * (1.0f - dry_share) * tip;
-    vec3 colour = mix(vec3(look.root), vec3(look.tip), v) * (1.0f + look.tip.w * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
-    colour = mix(colour, vec3(look.dry) * (1.0f + 0.4f * value), mix(mean_dry, own_dry, detail));
-    if (v > look.outline.z) { // heads neither dry nor yellow
-        colour = vec3(look.head) * (1.0f + look.tip.w * 0.7f * value);
+    vec3 colour = mix(look.root, look.tip, v) * (1.0f + look.variation * (0.7f * value + hue * vec3(1.0f, 0.05f, -0.3f)));
+    colour = mix(colour, look.dry * (1.0f + 0.4f * value), mix(mean_dry, own_dry, detail));
+    if (v > look.outline.head_from) { // heads neither dry nor yellow
+        colour = look.head * (1.0f + look.variation * 0.7f * value);
     }
     return max(colour, vec3(0.0f, 0.0f, 0.0f));
 }
@@ -57,18 +47,18 @@ SHARED_FN vec3 sward_tint(float tint) {
 
 // Sky radiance as grass takes it, the same from everywhere.
 SHARED_FN vec3 even_sky(Light light) {
-    return mix(vec3(light.horizon), vec3(light.zenith), 0.6f);
+    return mix(light.horizon, light.zenith, 0.6f);
 }
 
 // Sunlight that reaches relative height h (0 ground .. 1 top) of a canopy whose ground's normal is at cosine `slope` to the
 // sun: the path through the canopy grows as the ground turns away, and ends in the hill's own shadow.
 SHARED_FN float canopy_sun(Light light, float h, float slope) {
-    return exp(-light.to_sun.w * (1.0f - h) / max(slope, 0.12f)) * smoothstep(-0.08f, 0.2f, slope);
+    return exp(-light.sun_extinction * (1.0f - h) / max(slope, 0.12f)) * smoothstep(-0.08f, 0.2f, slope);
 }
 
 // Skylight likewise: the sky is above, whatever the sun does.
 SHARED_FN float canopy_sky(Light light, float h) {
-    return exp(-light.zenith.w * (1.0f - h));
+    return exp(-light.sky_extinction * (1.0f - h));
 }
 
 // How grass whose blades point along `turn` on average (unit) spreads about it: second moment of the cosine to an axis at cosine c.
@@ -82,12 +72,12 @@ SHARED_FN float spread_square(float c) {
 // Mean of shade_grass's sunlit part over blades so spread, for grey blades of reflectance `grey`.
 SHARED_FN float mean_sunlit(GrassAppearance look, float grey, vec3 turn, vec3 sun_way, vec3 to_eye) {
     float against = 0.5f - 0.5f * dot(to_eye, sun_way);
-    float diffuse = look.light.x * pow(1.0f - spread_square(dot(turn, sun_way)), 0.5f * look.light.y);
+    float diffuse = look.gloss.diffuse * pow(1.0f - spread_square(dot(turn, sun_way)), 0.5f * look.gloss.diffuse_power);
     float th = dot(turn, normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f)));
     // A normal spread about th, of variance kTangentSpread / 3, folded with exp(-ps x^2 / 2)
-    float wide = 1.0f + look.light.w * kTangentSpread / 3.0f;
-    float specular = look.light.z * exp(-0.5f * look.light.w * th * th / wide) / sqrt(wide);
-    return grey * (1.0f + 1.1f * look.dry.w * against * against * against) * diffuse + specular;
+    float wide = 1.0f + look.gloss.specular_power * kTangentSpread / 3.0f;
+    float specular = look.gloss.specular * exp(-0.5f * look.gloss.specular_power * th * th / wide) / sqrt(wide);
+    return grey * (1.0f + 1.1f * look.translucency * against * against * against) * diffuse + specular;
 }
 
 // W4 as one term: what bending does to the light in a canopy, from `turn`, the direction that it gave upright blades (unit).
@@ -100,7 +90,7 @@ SHARED_CONST float kSeenHeight = 0.35f; // at rest, over the canopy's: where the
 SHARED_CONST float kSwayLoss = 0.3f;     // bent blades open the view to deeper ones: of the fall of `turn`
 SHARED_FN vec2 canopy_sway(GrassAppearance look, vec3 turn, vec3 sun_way, vec3 to_eye) {
     vec3 upright = vec3(0.0f, 1.0f, 0.0f);
-    float grey = dot(mix(vec3(look.root), vec3(look.tip), 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
+    float grey = dot(mix(look.root, look.tip, 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
     float depth = sqrt((1.0f - spread_square(dot(turn, sun_way))) / (1.0f - spread_square(sun_way.y)));
     float x = log(mean_sunlit(look, grey, turn, sun_way, to_eye) / max(mean_sunlit(look, grey, upright, sun_way, to_eye), 1e-6f));
     x = x + kSunExtinction * (1.0f - kSeenHeight) * (1.0f - depth) / max(sun_way.y, 0.12f) - kSwayLoss * (1.0f - turn.y);
@@ -111,8 +101,8 @@ SHARED_FN vec2 canopy_sway(GrassAppearance look, vec3 turn, vec3 sun_way, vec3 t
 // Light as it reaches grass (and the ground under it) where `sway` is canopy_sway's.
 SHARED_FN Light light_in_sway(Light light, vec2 sway) {
     Light here = light;
-    here.sun = vec4(vec3(light.sun) * sway.x, light.sun.w);
-    here.to_sun.w = light.to_sun.w * sway.y;
+    here.sun = light.sun * sway.x;
+    here.sun_extinction = light.sun_extinction * sway.y;
     return here;
 }
 
@@ -121,8 +111,8 @@ SHARED_FN Light light_in_sway(Light light, vec2 sway) {
 SHARED_FN Light light_under(Light light, float open_sky) {
     Light here = light;
     float share = mix(0.5f, 1.0f, open_sky);
-    here.zenith = vec4(vec3(light.zenith) * share, light.zenith.w);
-    here.horizon = vec4(vec3(light.horizon) * share, light.horizon.w);
+    here.zenith = light.zenith * share;
+    here.horizon = light.horizon * share;
     return here;
 }
 
@@ -164,10 +154,10 @@ SHARED_FN float seen_square(GrassSums sums, vec3 way, vec3 to_eye) {
     return clamp((ll - 0.5f * fourth) / (1.0f - 0.5f * vv), 0.0f, 1.0f);
 }
 
-// Radiance toward the eye (unit direction to_eye) of grass: the one shading function. `gloss`: kd, pd, ks, ps of G4. Of many blades the
+// Radiance toward the eye (unit direction to_eye) of grass: the one shading function. Of many blades the
 // mean of the square of a cosine, and of the highlight as that of a cosine spread by its variance.
-SHARED_FN vec3 shade_sums(vec4 gloss, float translucency, Light light, GrassSums sums, vec3 to_eye) {
-    vec3 sun_way = vec3(light.to_sun);
+SHARED_FN vec3 shade_sums(GrassGloss gloss, float translucency, Light light, GrassSums sums, vec3 to_eye) {
+    vec3 sun_way = light.to_sun;
     vec3 half_way = normalize(sun_way + to_eye + vec3(0.0f, 1e-6f, 0.0f)); // never of length 0
     float tl = dot(sums.tangent, sun_way);
     float th = dot(sums.tangent, half_way);
@@ -178,16 +168,16 @@ SHARED_FN vec3 shade_sums(vec4 gloss, float translucency, Light light, GrassSums
         sunward = seen_square(sums, sun_way, to_eye);
         float spread = 0.5f * (1.0f - sums.along) * (1.0f - th * th);
         float share = seen_square(sums, half_way, to_eye) / max(sums.along * th * th + spread, 1e-4f);
-        wide = 1.0f + gloss.w * spread * share;
+        wide = 1.0f + gloss.specular_power * spread * share;
         mirrored = sums.along * th * th * share / wide;
     }
-    float diffuse = gloss.x * pow(max(1.0f - sunward, 0.0f), 0.5f * gloss.y);
-    float specular = gloss.z * pow(max(1.0f - mirrored, 0.0f), 0.5f * gloss.w) / sqrt(wide);
+    float diffuse = gloss.diffuse * pow(max(1.0f - sunward, 0.0f), 0.5f * gloss.diffuse_power);
+    float specular = gloss.specular * pow(max(1.0f - mirrored, 0.0f), 0.5f * gloss.specular_power) / sqrt(wide);
     // Against the light a blade glows: transmitted sunlight is yellower than reflected.
     float against = 0.5f - 0.5f * dot(to_eye, sun_way);
     vec3 glow = vec3(1.25f, 1.15f, 0.5f) * (translucency * against * against * against);
     vec3 highlight = vec3(specular, specular, specular) * sums.sun;
-    return vec3(light.sun) * (sums.sunlit * (1.0f + glow) * diffuse + highlight) + even_sky(light) * sums.skylit;
+    return light.sun * (sums.sunlit * (1.0f + glow) * diffuse + highlight) + even_sky(light) * sums.skylit;
 }
 
 SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, vec3 to_eye) {
@@ -197,36 +187,15 @@ SHARED_FN vec3 shade_grass(GrassAppearance look, Light light, GrassPoint point, 
     sums.skylit = point.albedo * canopy_sky(light, point.height);
     sums.tangent = point.tangent;
     sums.along = 1.0f;
-    return shade_sums(look.light, look.dry.w, light, sums, to_eye);
+    return shade_sums(look.gloss, look.translucency, light, sums, to_eye);
 }
 
 // Radiance of bare ground under `density` of canopy (0 open).
 SHARED_FN vec3 shade_soil(Light light, vec3 albedo, vec3 normal, float density) {
-    float slope = dot(normal, vec3(light.to_sun));
+    float slope = dot(normal, light.to_sun);
     float sun = mix(max(slope, 0.0f), max(slope, 0.0f) * canopy_sun(light, 0.0f, slope), density);
     float sky = mix(1.0f, canopy_sky(light, 0.0f), density) * (0.5f + 0.5f * normal.y);
-    return albedo * (vec3(light.sun) * sun + even_sky(light) * sky);
-}
-
-// Sky radiance in a unit direction.
-SHARED_FN vec3 sky_radiance(Light light, vec3 direction) {
-    float up = max(direction.y, 0.0f);
-    float low = (1.0f - up) * (1.0f - up);
-    vec3 sky = mix(vec3(light.zenith), vec3(light.horizon), low * low * (0.55f + 0.45f * low));
-    float toward = max(dot(direction, vec3(light.to_sun)), 0.0f);
-    float wide = toward * toward * toward * toward;
-    wide *= wide; // 8th power; the narrow one is the 64th
-    float narrow = wide * wide * wide * wide;
-    float halo = 0.12f * wide + 0.35f * narrow * narrow;
-    return sky + vec3(light.sun) * vec3(1.0f, 0.9f, 0.75f) * halo * 0.25f;
-}
-
-// Air between the eye and a surface (offset from_eye, m): fades to the horizon's colour in that direction. rgb: light that the air
-// adds; a: share of the surface's that it lets through. Smooth: grass takes it at its vertices.
-SHARED_FN vec4 haze_of(Light light, vec3 from_eye) {
-    float clear = exp(-length(from_eye) * light.sun.w);
-    vec3 level = normalize(vec3(from_eye.x, 0.02f * length(from_eye) + 1e-6f, from_eye.z));
-    return vec4(sky_radiance(light, level) * (1.0f - clear), clear);
+    return albedo * (light.sun * sun + even_sky(light) * sky);
 }
 
 SHARED_END

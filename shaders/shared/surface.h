@@ -13,10 +13,16 @@ SHARED_CONST float kReliefWavelength_m = 64.0f; // the longest
 
 // What a clipmap level is made from. 64 bytes.
 struct SurfaceParams {
-    vec4 grid;   // posts in x, z; spacing x, z (m)
-    vec4 relief; // amplitude (m); unused; anchor x, z (m), for drawing
-    ivec4 level; // first post i, j of this level's window (world posts), level number, unused
-    vec4 step;   // spacing of this level (m); for drawing detail_reach's start (m) and zoom; unused
+    ivec2 posts;      // in x, z
+    vec2 post_m;      // their spacing in x, z
+    vec2 anchor;      // x, z (m), for drawing
+    ivec2 first;      // post i, j of this level's window (world posts)
+    int level;
+    float spacing_m;  // of this level
+    float relief_m;   // amplitude
+    float detail_from_m; // for drawing: detail_reach's start
+    float zoom;       // likewise
+    float unused_a, unused_b, unused_c; // to 64 bytes
 };
 #ifdef __cplusplus
 static_assert(sizeof(SurfaceParams) == 64);

@@ -71,7 +71,7 @@ SHARED_FN BladeBody surface_blade_shape(SurfaceBlade blade, float canopy) {
 
 // The whole body. Its front is square to its width, as it has grown; the more its calm tip is off its root's normal, the more it sags.
 SHARED_FN BladeBody surface_blade_body(BladeStep rules, SurfaceBlade blade, vec3 root) {
-    BladeBody body = surface_blade_shape(blade, rules.time.y);
+    BladeBody body = surface_blade_shape(blade, rules.canopy_m);
     vec3 front = cross(body.up, surface_width_direction(body.up, blade.root_direction.w));
     float off = min(length(body.calm2 - body.up * body.stem_canopy.x) / max(body.stem_canopy.x, 1e-6f), 1.0f);
     float sag = 0.03f + 0.05f * off; // of its length, as a set's blade by its droop

@@ -7,6 +7,7 @@
 #ifndef SWARD_SHARED_TRACK_H
 #define SWARD_SHARED_TRACK_H
 #include "shared/track_field.h"
+#include "shared/track_print.h"
 
 SHARED_BEGIN
 
@@ -14,34 +15,6 @@ SHARED_CONST float kTrackStep_s = 1.0f / 60.0f;
 SHARED_CONST float kMostBend = 1.0f;        // of theta
 SHARED_CONST float kLeastContact_m = 0.03f; // C4's hc is never less: omega stays finite under a wheel
 SHARED_CONST float kMostOmega = 200.0f;     // 1/s
-// What all cells share in a step. 48 bytes.
-struct TrackRules {
-    vec4 grid;  // cell (m); step (s); damping l of C2; restoring term k (1/s^2)
-    vec4 waves; // c0, c_omega (m/s); mu (m); greatest speed of a wave (m/s), inside the stable bound
-    vec4 grass; // canopy (m); share of stems that break under a full load; what is left of a pressed cell's 1 since its count began; unused
-};
-
-// Relative to a page's north-west corner (m). 64 bytes.
-struct TrackPrint {
-    vec4 now;     // x, z; cosine, sine of its yaw, at the step's end
-    vec4 before;  // the same at its start
-    vec4 shape;   // half width (m); half depth, or radius (m); its underside's lowest height over the ground (m); share of its load, 0..1
-    ivec4 kind;   // kPrint*; unused
-};
-SHARED_CONST int kPrintBox = 0;    // its underside is flat
-SHARED_CONST int kPrintSphere = 1; // shape.y: radius
-SHARED_CONST int kPrintWheel = 2;  // rolls along its own z; shape.x: half of its width, shape.y: radius
-
-// A block that is stepped, or only pressed. 64 bytes.
-struct TrackBlock {
-    ivec4 page;   // slot of its page; first print, prints; its first cell x + 256 z in the page
-    ivec4 own;    // its place in the pool of what moves; unused
-    ivec4 beside; // places there of those to the west, east, north, south; -1: at rest
-    vec4 ground;  // slope dy/dx, dy/dz; unused
-};
-#ifdef __cplusplus
-static_assert(sizeof(TrackRules) == 48 && sizeof(TrackPrint) == 64 && sizeof(TrackBlock) == 64);
-#endif
 
 struct TrackCell {
     vec2 theta;
@@ -59,15 +32,15 @@ SHARED_FN float track_greatest_wave(float cell_m, float step_s, float k) {
 // C2: the next change of theta and omega from a cell and its four neighbours' (theta, omega). As printed, x(t+dt) = (2-l) x(t) - (1-l) x(t-dt)
 // + a dt^2; with a (1 - l/2) waves run at c whatever l is. - k theta is ours.
 SHARED_FN vec4 track_change(TrackRules rules, TrackCell own, vec4 west, vec4 east, vec4 north, vec4 south) {
-    float per_area = 1.0f / (rules.grid.x * rules.grid.x);
+    float per_area = 1.0f / (rules.cell_m * rules.cell_m);
     vec4 sum = west + east + north + south;
     vec2 lap_theta = per_area * (vec2(sum.x, sum.y) - 4.0f * own.theta);
     vec2 lap_omega = per_area * (vec2(sum.z, sum.w) - 4.0f * own.omega);
-    float c = min(rules.waves.x + rules.waves.z * length(own.omega), rules.waves.w);
-    float gain = (1.0f - 0.5f * rules.grid.z) * rules.grid.y * rules.grid.y;
-    float kept = 1.0f - rules.grid.z;
-    vec2 theta = kept * own.theta_step + gain * (c * c * lap_theta - rules.grid.w * own.theta);
-    vec2 omega = kept * own.omega_step + gain * (rules.waves.y * rules.waves.y * lap_omega - rules.grid.w * own.omega);
+    float c = min(rules.wave_mps + rules.wave_gain_m * length(own.omega), rules.most_wave_mps);
+    float gain = (1.0f - 0.5f * rules.damping) * rules.step_s * rules.step_s;
+    float kept = 1.0f - rules.damping;
+    vec2 theta = kept * own.theta_step + gain * (c * c * lap_theta - rules.recovery_per_s2 * own.theta);
+    vec2 omega = kept * own.omega_step + gain * (rules.rate_wave_mps * rules.rate_wave_mps * lap_omega - rules.recovery_per_s2 * own.omega);
     return vec4(theta.x, theta.y, omega.x, omega.y);
 }
 
@@ -101,9 +74,9 @@ struct TrackContact {
 };
 
 // A place in a print's own frame: x to its right, z behind it.
-SHARED_FN vec2 track_own(vec4 place, vec2 xz) {
-    vec2 from = xz - vec2(place.x, place.y);
-    return vec2(place.z * from.x + place.w * from.y, place.z * from.y - place.w * from.x);
+SHARED_FN vec2 track_own(TrackPlace own, vec2 xz) {
+    vec2 from = xz - own.place;
+    return vec2(own.heading.x * from.x + own.heading.y * from.y, own.heading.x * from.y - own.heading.y * from.x);
 }
 
 // Part of the way from `from` by `way` inside |x| <= half.x, |y| <= half.y: (first, last) in 0..1; first > last: none.
@@ -126,23 +99,23 @@ SHARED_FN vec2 track_inside(vec2 from, vec2 way, vec2 half_size) {
 
 // Half sizes of a print to its right and behind it. None is narrower than a cell, or a strip would have gaps.
 SHARED_FN vec2 track_half_size(TrackRules rules, TrackPrint print) {
-    float wide = print.kind.x == kPrintSphere ? print.shape.y : print.shape.x;
-    return max(vec2(wide, print.shape.y), vec2(0.5f * rules.grid.x, 0.5f * rules.grid.x));
+    float wide = print.kind == kPrintSphere ? print.half_depth_m : print.half_width_m;
+    return max(vec2(wide, print.half_depth_m), vec2(0.5f * rules.cell_m, 0.5f * rules.cell_m));
 }
 
 // Height of a print's underside over the ground at a place `own` in its frame, over that under its middle (m); negative: the place is not under it.
 SHARED_FN float track_rise(TrackPrint print, vec2 own, vec2 half_size) {
-    if (print.kind.x == kPrintBox) {
+    if (print.kind == kPrintBox) {
         return 0.0f;
     }
-    float out_of = print.kind.x == kPrintSphere ? length(own) : abs(own.y);
+    float out_of = print.kind == kPrintSphere ? length(own) : abs(own.y);
     float square = half_size.y * half_size.y - out_of * out_of;
-    return print.kind.x == kPrintSphere && out_of > half_size.x ? -1.0f : half_size.y - sqrt(max(square, 0.0f));
+    return print.kind == kPrintSphere && out_of > half_size.x ? -1.0f : half_size.y - sqrt(max(square, 0.0f));
 }
 
 // M of C4 in a print's own frame: outward normal of the rim that is nearest; z: distance to that rim (m).
 SHARED_FN vec3 track_rim(TrackPrint print, vec2 own, vec2 half_size) {
-    if (print.kind.x == kPrintSphere) {
+    if (print.kind == kPrintSphere) {
         float from_middle = length(own);
         return vec3(own.x / max(from_middle, 1e-6f), own.y / max(from_middle, 1e-6f), half_size.x - from_middle);
     }
@@ -152,11 +125,11 @@ SHARED_FN vec3 track_rim(TrackPrint print, vec2 own, vec2 half_size) {
 
 // C4's dir, and the object's speed along it (m/s): M + T on the rim that goes ahead, else T; of what stands, away from its middle.
 SHARED_FN vec3 track_way(TrackRules rules, TrackPrint print, vec3 rim) {
-    vec2 normal = vec2(print.now.z * rim.x - print.now.w * rim.y, print.now.w * rim.x + print.now.z * rim.y);
-    vec2 velocity = vec2(print.now.x - print.before.x, print.now.y - print.before.y) / rules.grid.y;
+    vec2 normal = vec2(print.now.heading.x * rim.x - print.now.heading.y * rim.y, print.now.heading.y * rim.x + print.now.heading.x * rim.y);
+    vec2 velocity = (print.now.place - print.before.place) / rules.step_s;
     float speed = length(velocity);
     vec2 ahead = speed > 1e-3f ? velocity / speed : vec2(0.0f, 0.0f);
-    vec2 way = rim.z <= rules.grid.x && dot(normal, ahead) >= 0.0f ? ahead + normal : ahead;
+    vec2 way = rim.z <= rules.cell_m && dot(normal, ahead) >= 0.0f ? ahead + normal : ahead;
     float length_of = length(way);
     if (length_of < 1e-3f) {
         way = normal;
@@ -182,13 +155,13 @@ SHARED_FN TrackContact track_contact(TrackRules rules, TrackPrint print, vec2 xz
         return contact;
     }
     // Where the underside is nearest: straight over the middle, or as near as it comes.
-    bool ball = print.kind.x == kPrintSphere;
+    bool ball = print.kind == kPrintSphere;
     float square = max(ball ? dot(run, run) : run.y * run.y, 1e-12f);
     float nearest = clamp(-(ball ? dot(from, run) : from.y * run.y) / square, span.x, span.y);
     vec2 own = from + run * nearest;
     float rise = track_rise(print, own, half_size);
-    contact.clearance = max(print.shape.z + rise, 0.0f);
-    if (rise < 0.0f || contact.clearance >= rules.grass.x) {
+    contact.clearance = max(print.underside_m + rise, 0.0f);
+    if (rise < 0.0f || contact.clearance >= rules.canopy_m) {
         return contact;
     }
     vec3 way = track_way(rules, print, track_rim(print, own, half_size));
@@ -215,9 +188,9 @@ SHARED_FN TrackCell track_bent(TrackRules rules, TrackCell own, TrackContact con
     float upright = cos(0.5f * kPi * min(length(own.theta), 1.0f));
     float rate = contact.speed * upright * upright / max(contact.clearance, kLeastContact_m) * (2.0f / kPi);
     next.omega = contact.way * min(rate, kMostOmega);
-    next.theta = own.theta + next.omega * rules.grid.y;
+    next.theta = own.theta + next.omega * rules.step_s;
     float along = dot(next.theta, contact.way);
-    float needed = track_needed(contact.clearance / rules.grass.x);
+    float needed = track_needed(contact.clearance / rules.canopy_m);
     next.theta = next.theta + contact.way * max(needed - along, 0.0f);
     float most = track_most(slope, next.theta / max(length(next.theta), 1e-6f));
     next.theta = next.theta * min(1.0f, most / max(length(next.theta), 1e-6f));
@@ -226,10 +199,10 @@ SHARED_FN TrackCell track_bent(TrackRules rules, TrackCell own, TrackContact con
     return next;
 }
 
-// The slow channel under a print: by its load and height alone, so that speed leaves no mark in it. Counted in units of rules.grass.z.
+// The slow channel under a print: by its load and height alone, so that speed leaves no mark in it. Counted in units of rules.left.
 SHARED_FN vec2 track_pressed(TrackRules rules, vec2 pressed, TrackContact contact, float load) {
-    float depth = 1.0f - contact.clearance / rules.grass.x;
-    float now = rules.grass.y * load * smoothstep(0.25f, 0.9f, depth) / rules.grass.z;
+    float depth = 1.0f - contact.clearance / rules.canopy_m;
+    float now = rules.broken * load * smoothstep(0.25f, 0.9f, depth) / rules.left;
     float there = length(pressed);
     if (now <= 0.5f * there) { // brushed: those that lie stay
         return pressed;

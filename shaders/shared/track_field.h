@@ -13,19 +13,26 @@ SHARED_CONST int kTrackBlock = 16;          // a side of a block: what moves of 
 SHARED_CONST int kTrackRow = 8;             // blocks a side of a page
 SHARED_CONST int kTrackBlocks = 64;
 
-// Where track_at() finds its answer. 48 bytes.
+// Where track_at() finds its answer. 64 bytes.
 struct TrackField {
-    vec4 place;  // the anchor in its page x, z (m); 1 / cell (1/m); share of `pressed` that is left
-    ivec4 page;  // page of the anchor x, z; mask of the table of pages, 0 or less: no tracks; c0 (mm/s) + 65536 mu (mm)
-    vec4 bounds; // of all pages, anchor-relative: least x, z, most x, z (m)
+    vec2 place;        // the anchor in its page x, z (m)
+    float per_m;       // 1 / cell
+    float left;        // share of `pressed` that is
+    ivec2 page;        // of the anchor x, z
+    int table_mask;    // of the table of pages, 0 or less: no tracks
+    float wave_mps;    // c0
+    vec2 least;        // x, z of all pages, anchor-relative (m)
+    vec2 most;
+    float wave_gain_m; // mu
+    float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(TrackField) == 48);
+static_assert(sizeof(TrackField) == 64);
 #endif
 
 // The four cells around a place of a level, and the place among them. `cells`: from the anchor page's north-west corner.
 SHARED_FN vec2 track_level_place(TrackField field, vec2 xz, int level) {
-    return (vec2(field.place.x, field.place.y) + xz) * (field.place.z * exp2(-float(level))) - vec2(0.5f, 0.5f);
+    return (field.place + xz) * (field.per_m * exp2(-float(level))) - vec2(0.5f, 0.5f);
 }
 
 // First word of a level within a page: its cells, one each; then 64^2, 32^2, ... of two.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bridge that lets C++ and GLSL compile the same header: GLSL's names in namespace sward::shared.
-// Structs that cross hold no vec3 (std430 pads it); C++ asserts every size.
+// Structs that cross lie alike in C++, std140 and std430: a vec3 has a scalar after it that fills its 16 bytes, a vec2 lies at a multiple of 8,
+// a struct is a multiple of 16 long. C++ asserts every size, tests/gl/programs_test.cpp every place.
 #ifndef SWARD_SHARED_TYPES_H
 #define SWARD_SHARED_TYPES_H
 
@@ -15,6 +16,7 @@
 #define SHARED_INOUT(type) type&
 namespace sward::shared {
 using glm::ivec2;
+using glm::ivec3;
 using glm::ivec4;
 using glm::mat4;
 using glm::uvec2;

@@ -10,17 +10,31 @@ SHARED_BEGIN
 SHARED_CONST int kWindLayers = 2; // copies of the ambient tile: one alone would show itself repeating
 
 // Offsets hold anchor and time already (reduced in double precision on the CPU), so that shaders only add places near
-// the anchor. 112 bytes.
+// the anchor. A layer: 32 bytes; the field: 128.
+struct WindLayer {
+    vec2 place;   // tile coordinates of the anchor (cells)
+    vec2 turn;    // cosine and sine of the layer's turn over its cell (1/m)
+    float weight;
+    float cell_m;
+    float unused_a, unused_b; // to 32 bytes
+};
+
 struct WindField {
-    vec4 mean;      // mean velocity x, z (m/s); unused; response of the grass, 1 / (m/s)
-    vec4 ambient;   // cells a side of the tile (0: no gusts); share of the latest state in time; unused
-    vec4 layers[2]; // tile coordinates of the anchor (cells); cosine and sine of the layer's turn over its cell (1/m)
-    vec4 weights;   // of the layers; their cells (m)
-    vec4 window;    // north-west corner from the anchor x, z (m); 1 / cell (1/m); cells a side (0: no window)
-    vec4 blend;     // storage place of that corner's cell x, z; share of the latest state; width of the rim's blend (cells)
+    vec2 mean;           // mean velocity x, z (m/s)
+    float response;      // of the grass, 1 / (m/s)
+    int tile_cells;      // a side of the tile, 0: no gusts
+    WindLayer layers[kWindLayers];
+    vec2 window_corner_m; // the north-west one from the anchor x, z
+    float window_per_m;  // 1 / cell
+    int window_cells;    // a side, 0: no window
+    ivec2 window_first;  // storage place of that corner's cell x, z
+    float window_share;  // of the latest state in time
+    float window_rim;    // width of its blend (cells)
+    float tile_share;    // of the tile's latest state in time
+    float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
-static_assert(sizeof(WindField) == 112);
+static_assert(sizeof(WindLayer) == 32 && sizeof(WindField) == 128);
 #endif
 
 // Winds that the far appearance is computed for: 0.5, 1 and 1.5 times the mean one.
@@ -28,10 +42,10 @@ SHARED_CONST int kFarWinds = 3;
 
 // The speed that far winds are parts of (m/s): the mean one, but never so little that arrows in still air would find no table.
 SHARED_FN float far_wind_speed(WindField field) {
-    return max(length(vec2(field.mean.x, field.mean.y)), 2.0f);
+    return max(length(field.mean), 2.0f);
 }
 SHARED_FN vec2 far_wind(WindField field, int index) {
-    vec2 mean = vec2(field.mean.x, field.mean.y);
+    vec2 mean = field.mean;
     float speed = length(mean);
     vec2 way = speed > 0.0f ? mean / speed : vec2(1.0f, 0.0f);
     return way * (far_wind_speed(field) * (speed > 0.0f ? 0.5f + 0.5f * float(index) : 0.0f));
@@ -49,16 +63,16 @@ struct WindTap {
 
 // Tile coordinates (cells) of an anchor-relative place in a layer.
 SHARED_FN vec2 wind_layer_place(WindField field, int layer, vec2 xz) {
-    vec4 turn = field.layers[layer];
-    return vec2(turn.x + turn.z * xz.x + turn.w * xz.y, turn.y - turn.w * xz.x + turn.z * xz.y);
+    vec2 place = field.layers[layer].place;
+    vec2 turn = field.layers[layer].turn;
+    return vec2(place.x + turn.x * xz.x + turn.y * xz.y, place.y - turn.y * xz.x + turn.x * xz.y);
 }
 
 // A tile's velocity turned into the world, and its share of the wind.
 SHARED_FN vec2 wind_layer_velocity(WindField field, int layer, vec2 velocity) {
-    vec4 turn = field.layers[layer];
-    float cell = layer == 0 ? field.weights.z : field.weights.w;
-    float scale = cell * (layer == 0 ? field.weights.x : field.weights.y);
-    return scale * vec2(turn.z * velocity.x - turn.w * velocity.y, turn.w * velocity.x + turn.z * velocity.y);
+    vec2 turn = field.layers[layer].turn;
+    float scale = field.layers[layer].cell_m * field.layers[layer].weight;
+    return scale * vec2(turn.x * velocity.x - turn.y * velocity.y, turn.y * velocity.x + turn.x * velocity.y);
 }
 
 SHARED_FN WindTap wind_tile_tap(float cells, vec2 place) {
@@ -80,9 +94,9 @@ SHARED_FN WindTap wind_tile_tap(float cells, vec2 place) {
 SHARED_FN WindTap wind_window_tap(WindField field, vec2 place) {
     vec2 from_centre = place - vec2(0.5f, 0.5f);
     vec2 low = floor(from_centre);
-    int n = int(field.window.w);
-    int x = clamp(int(low.x), 0, n - 2) + int(field.blend.x);
-    int y = clamp(int(low.y), 0, n - 2) + int(field.blend.y);
+    int n = field.window_cells;
+    int x = clamp(int(low.x), 0, n - 2) + field.window_first.x;
+    int y = clamp(int(low.y), 0, n - 2) + field.window_first.y;
     int west = x < n ? x : x - n;
     int east = x + 1 < n ? x + 1 : x + 1 - n;
     int north = (y < n ? y : y - n) * n;
@@ -95,9 +109,9 @@ SHARED_FN WindTap wind_window_tap(WindField field, vec2 place) {
 
 // Share of the local window at a place (cells from its corner): 1 inside, 0 at the rim and outside.
 SHARED_FN float wind_window_share(WindField field, vec2 place) {
-    float n = field.window.w;
+    float n = float(field.window_cells);
     float to_rim = min(min(place.x, place.y), min(n - place.x, n - place.y)) - 4.0f;
-    float t = clamp(to_rim / max(field.blend.w, 1.0f), 0.0f, 1.0f);
+    float t = clamp(to_rim / max(field.window_rim, 1.0f), 0.0f, 1.0f);
     return n > 0.0f ? t * t * (3.0f - 2.0f * t) : 0.0f;
 }
 

@@ -14,13 +14,20 @@ SHARED_CONST int kForceRing = 3;   // rotor, fan: out from a point
 SHARED_CONST int kForceVortex = 4; // cyclone: around a point and into it
 SHARED_CONST int kForceWave = 5;   // directional moving sines
 
-// 64 bytes. Lengths in metres, speeds in m/s.
+// 64 bytes.
 struct WindForce {
-    vec4 place;  // x, z from the window's north-west corner; unit direction x, z
-    vec4 extent; // radius (disc, strip, wake: half width; ring, vortex: of the highest speed; wave: reach); length (strip,
-                 // wake) or reach (ring, vortex, wave); unused
-    vec4 push;   // speed; rate (1/s); kind; vortex: inflow over tangential speed, its sign the turn (+ clockwise from above)
-    vec4 motion; // velocity of the source itself x, z; wave: wave number (rad/m), phase at its place (rad)
+    vec2 place;        // x, z from the window's north-west corner (m)
+    vec2 along;        // unit direction x, z
+    float radius_m;    // disc, strip, wake: half width; ring, vortex: of the highest speed; wave: reach
+    float reach_m;     // or length (strip, wake)
+    float speed_mps;
+    float rate_per_s;
+    vec2 velocity;     // of a vortex itself x, z (m/s)
+    float wave_number; // of a wave (rad/m)
+    float wave_phase;  // at its place (rad)
+    int kind;          // kForce*
+    float inflow;      // of a vortex, over its tangential speed; its sign is the turn (+ clockwise from above)
+    int unused_a, unused_b; // to 64 bytes
 };
 #ifdef __cplusplus
 static_assert(sizeof(WindForce) == 64);
@@ -69,40 +76,40 @@ SHARED_FN WindPush wind_force_at(WindForce force, vec2 xz) {
     push.target = vec2(0.0f, 0.0f);
     push.rate = 0.0f;
     push.outflow = vec2(0.0f, 0.0f);
-    int kind = int(force.push.z + 0.5f);
-    float speed = force.push.x;
-    vec2 along = vec2(force.place.z, force.place.w);
-    vec2 from = xz - vec2(force.place.x, force.place.y);
+    int kind = force.kind;
+    float speed = force.speed_mps;
+    vec2 along = force.along;
+    vec2 from = xz - force.place;
     float distance_m = length(from);
-    float radius = force.extent.x;
+    float radius = force.radius_m;
     if (kind == kForceDisc) {
         push.target = along * speed;
-        push.rate = force.push.y * force_weight(distance_m / radius);
+        push.rate = force.rate_per_s * force_weight(distance_m / radius);
     } else if (kind == kForceStrip) {
         float ahead = dot(from, along);
-        vec2 off = from - along * clamp(ahead, 0.0f, force.extent.y);
+        vec2 off = from - along * clamp(ahead, 0.0f, force.reach_m);
         push.target = along * speed;
-        push.rate = force.push.y * force_weight(length(off) / radius);
+        push.rate = force.rate_per_s * force_weight(length(off) / radius);
     } else if (kind == kForceWake) {
         float behind = -dot(from, along);
         vec2 shape = wake_at(behind / radius);
         float aside = length(from + along * behind) / (radius * shape.y);
-        float ends = smoothstep(-radius, 0.0f, behind) * (1.0f - smoothstep(0.5f * force.extent.y, force.extent.y, behind));
+        float ends = smoothstep(-radius, 0.0f, behind) * (1.0f - smoothstep(0.5f * force.reach_m, force.reach_m, behind));
         push.target = along * (speed * shape.x);
-        push.rate = force.push.y * ends * force_weight(0.5f * aside);
+        push.rate = force.rate_per_s * ends * force_weight(0.5f * aside);
     } else if (kind == kForceRing) {
-        float profile = speed * ring_profile(distance_m / radius) * reach_weight(distance_m, force.extent.y);
+        float profile = speed * ring_profile(distance_m / radius) * reach_weight(distance_m, force.reach_m);
         push.outflow = from * (profile / max(distance_m, 1e-6f));
     } else if (kind == kForceVortex) {
-        float weight = reach_weight(distance_m, force.extent.y);
+        float weight = reach_weight(distance_m, force.reach_m);
         vec2 outwards = from / max(distance_m, 1e-6f);
-        vec2 around = vec2(-outwards.y, outwards.x) * (force.push.w < 0.0f ? -1.0f : 1.0f); // x east, z south: clockwise
+        vec2 around = vec2(-outwards.y, outwards.x) * (force.inflow < 0.0f ? -1.0f : 1.0f); // x east, z south: clockwise
         float profile = speed * ring_profile(distance_m / radius);
-        push.outflow = outwards * (-abs(force.push.w) * profile * weight);
-        push.target = around * profile + push.outflow + vec2(force.motion.x, force.motion.y);
-        push.rate = force.push.y * weight;
+        push.outflow = outwards * (-abs(force.inflow) * profile * weight);
+        push.target = around * profile + push.outflow + force.velocity;
+        push.rate = force.rate_per_s * weight;
     } else {
-        float profile = wave_profile(force.motion.x * dot(from, along) + force.motion.y) * reach_weight(distance_m, force.extent.y);
+        float profile = wave_profile(force.wave_number * dot(from, along) + force.wave_phase) * reach_weight(distance_m, force.reach_m);
         push.outflow = along * (speed * profile);
     }
     return push;

@@ -12,11 +12,11 @@ out vec4 air;    // wind, canopy_sway
 void main() {
     TerrainBlock block = blocks[gl_InstanceID];
     vec2 cell = vec2(gl_VertexID % (kBlockCells + 1), gl_VertexID / (kBlockCells + 1));
-    vec2 xz = block.place.xy + cell * block.place.z;
+    vec2 xz = block.corner + cell * block.spacing_m;
     BlockSample here = samples[gl_InstanceID * kBlockPosts + gl_VertexID];
-    float canopy = frame.patch_grid.w;
-    float top = frame.land.y * (canopy + bend_offset(canopy, canopy, here.motion.zw, frame.wind.mean.w).y);
-    ground = vec4(here.motion.xy, here.ground.yw);
-    air = vec4(here.motion.zw, here.sway.xy);
-    gl_Position = frame.clip_from_world * vec4(xz.x, here.ground.x + top, xz.y, 1.0);
+    float canopy = frame.canopy_m;
+    float top = frame.land_highest * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.response).y);
+    ground = vec4(here.slope, here.density, here.tint);
+    air = vec4(here.wind, here.sway);
+    gl_Position = frame.clip_from_world * vec4(xz.x, here.height_m + top, xz.y, 1.0);
 }

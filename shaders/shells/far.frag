@@ -14,7 +14,8 @@ in vec3 rest;
 in vec4 ground_here;
 in vec3 ground_slope;
 in vec3 turn;
-in vec4 haze;
+in vec3 air_added;
+in vec3 air_through;
 flat in ivec4 image;
 
 // Texels are as wide as a pixel from here on: above 0 coarser, cheaper for caches, and blades break up sooner.
@@ -35,21 +36,21 @@ bool own_blade(float rank, float seed, vec3 root, float dither) {
         return false;
     }
 #endif
-    float from_eye = distance(root, frame.lod_eye.xyz);
+    float from_eye = distance(root, frame.lod_eye);
     int level = image.w;
-    if (frame.mode.y >= 0) { // one level forced, out to the far tier's end
-        return from_eye < frame.far_bands[frame.patch_tile.w - 1].w;
+    if (frame.forced_level >= 0) { // one level forced, out to the far tier's end
+        return from_eye < frame.far_bands[frame.far_levels - 1].outgoing.y;
     }
-    vec4 band = frame.far_bands[level];
+    FarBand band = frame.far_bands[level];
     if (level == 0) {
-        bool near = handover_near(rank, from_eye, band.xy, dither, frame.mode.x);
-        if (frame.mode.z == 0 && (frame.mode.x == kHandoverOff ? from_eye < band.x : near)) {
+        bool near = handover_near(rank, from_eye, band.incoming, dither, frame.handover_mode);
+        if (frame.far_alone == 0 && (frame.handover_mode == kHandoverOff ? from_eye < band.incoming.x : near)) {
             return false;
         }
-    } else if (handover_near(rank, from_eye, band.xy, dither, kHandoverRank)) {
+    } else if (handover_near(rank, from_eye, band.incoming, dither, kHandoverRank)) {
         return false;
     }
-    return handover_near(rank, from_eye, band.zw, dither, kHandoverRank);
+    return handover_near(rank, from_eye, band.outgoing, dither, kHandoverRank);
 }
 
 struct FarTexel {
@@ -60,19 +61,19 @@ struct FarTexel {
 };
 
 FarTexel find_texel() {
-    vec2 place = (rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
-    ivec2 tile = ivec2(floor(place)) + frame.patch_tile.xy;
-    int layer = image.x + tile_variant(tile, frame.patch_tile.z) * image.y;
+    vec2 place = (rest.xz + frame.patch_offset_m) / frame.patch_side_m;
+    ivec2 tile = ivec2(floor(place)) + frame.anchor_tile;
+    int layer = image.x + tile_variant(tile, frame.patch_variants) * image.y;
 #ifdef SLICES
-    vec2 uv = vec2(image.z == kAxisX ? place.y : place.x, rest.y / frame.patch_grid.w);
+    vec2 uv = vec2(image.z == kAxisX ? place.y : place.x, rest.y / frame.canopy_m);
 #else
     vec2 uv = place;
 #endif
     float dither = pixel_threshold(ivec2(gl_FragCoord.xy));
     // Mip by distance, not by derivatives: blades seen at a grazing angle stay blades. The dither hides the step between mips.
-    float pixel_m = distance(world, frame.eye.xyz) / frame.eye.w;
+    float pixel_m = distance(world, frame.eye) / frame.focal_px;
     vec2 size = vec2(textureSize(far_images, 0).xy);
-    float texel_m = frame.patch_grid.z / size.x;
+    float texel_m = frame.patch_side_m / size.x;
     float mip = floor(max(log2(pixel_m / texel_m) + kMipBias + dither, 0.0));
     return FarTexel(vec3(uv, layer), mip, ivec2(floor(uv * size * exp2(-mip))), dither);
 }
@@ -97,13 +98,13 @@ void main() {
     int code = int(id.a * 255.0 + 0.5);
     float along = decode_along(code);
 #ifndef SLICES
-    if (frame.mode.w != kHeightNone && id.r > 0.0) { // B1: the blade stands in every shell below its top
-        float top = decode_height(id.r, frame.mode.w) * frame.patch_grid.w;
+    if (frame.height_coding != kHeightNone && id.r > 0.0) { // B1: the blade stands in every shell below its top
+        float top = decode_height(id.r, frame.height_coding) * frame.canopy_m;
         along *= rest.y / top;
         id.r = top >= rest.y ? 1.0 : 0.0;
     }
 #endif
-    vec2 offset = decode_offset(shape.ba, frame.grass.x);
+    vec2 offset = decode_offset(shape.ba, frame.offset_range_m);
     vec3 root = vec3(rest.x + offset.x, ground_here.x + dot(ground_slope.xy, offset), rest.z + offset.y);
     float rank = unorm8_to_unit(id.g);
     float seed = unorm8_to_unit(id.b);
@@ -117,7 +118,7 @@ void main() {
     // Each sample shows the texel or not, with its coverage as the chance: a hash of the texel, so that it stays put.
     uint h = hash_ivec2(texel.cell, uint(texel.uv.z));
     vec4 chances = (vec4(h & 255u, (h >> 8u) & 255u, (h >> 16u) & 255u, h >> 24u) + 0.5) / 256.0;
-    float coverage = id.r * max(ground_slope.z, 1.0) * flattening(tangent, flattened, normalize(frame.eye.xyz - world));
+    float coverage = id.r * max(ground_slope.z, 1.0) * flattening(tangent, flattened, normalize(frame.eye - world));
     bvec4 shown = greaterThan(vec4(coverage), chances);
     gl_SampleMask[0] = (shown.x ? 1 : 0) | (shown.y ? 2 : 0) | (shown.z ? 4 : 0) | (shown.w ? 8 : 0);
     if (!any(shown) || !own_blade(rank, seed, root, texel.dither)) {
@@ -129,5 +130,6 @@ void main() {
 #else
     float tier = kTierShell;
 #endif
-    write_grass(GrassSample(world, tangent, tangent, rank, seed, along, clamp(rest.y / frame.patch_grid.w, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), haze));
+    AirLight air = AirLight(air_added, air_through);
+    write_grass(GrassSample(world, tangent, tangent, rank, seed, along, clamp(rest.y / frame.canopy_m, 0.0, 1.0), ground_here.z, ground_here.w, tier, decode_species(code), air));
 }

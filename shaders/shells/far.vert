@@ -16,8 +16,9 @@ out vec4 ground_here; // height of the ground (world y), grass density, cosine t
 out vec3 ground_slope; // dy/dx, dy/dz; share of the family's blades that this view shows
 out vec3 turn;          // what the bend makes of an upright tangent
 out vec2 sway;          // canopy_sway
-out vec4 haze;
-flat out ivec4 image;
+out vec3 air_added;
+out vec3 air_through;
+flat out ivec4 image; // as FarInstance: image, planes, axis, level
 
 // The shares were found for blades at rest; what they hang on is the angle between view and blades, so bent ones take the view's
 // elevation about their own direction, `bend`.
@@ -38,54 +39,55 @@ float family_share(vec3 from_eye, vec2 slope, vec2 bend, int level) {
     float at = asin(clamp(sine, 0.0, 0.99999)) * (float(kShareSteps) / (0.5 * kPi));
     int row = int(at);
 #ifdef SLICES
-    return mix(shares.slices[row].x, shares.slices[row + 1].x, at - float(row));
+    return mix(shares.steps[row].slices, shares.steps[row + 1].slices, at - float(row));
 #else
-    return mix(shares.shells[row], shares.shells[row + 1], at - float(row))[level];
+    return mix(shares.steps[row].shells, shares.steps[row + 1].shells, at - float(row))[level];
 #endif
 }
 
+#ifdef SLICES
+BlockSample sample_between(BlockSample a, BlockSample b, float share) {
+    return BlockSample(mix(a.height_m, b.height_m, share), mix(a.density, b.density, share), mix(a.sun_cosine, b.sun_cosine, share),
+                       mix(a.tint, b.tint, share), mix(a.slope, b.slope, share), mix(a.wind, b.wind, share), mix(a.sway, b.sway, share),
+                       mix(a.bend, b.bend, share));
+}
+#endif
+
 void main() {
     FarInstance instance = instances[gl_InstanceID];
-    int block_index = int(instance.place.y);
-    TerrainBlock block = blocks[block_index];
-    int first = block_index * kBlockPosts;
+    TerrainBlock block = blocks[instance.block];
+    int first = instance.block * kBlockPosts;
     int column = gl_VertexID % (kBlockCells + 1);
     int row = gl_VertexID / (kBlockCells + 1);
     // Cells out of the level's reach collapse: nearby ones would cover most of the screen to be discarded.
-    column = clamp(column, int(instance.place.z) & 15, int(instance.place.z) >> 4);
+    column = clamp(column, instance.along.x, instance.along.y);
 #ifdef SLICES
     // Between two lines of the block's grid: a slice meets the very surface that the ground's mesh has there.
-    bool across_x = instance.image.z == kAxisX;
-    vec2 corner = across_x ? block.place.xy : block.place.yx;
-    float line = clamp((instance.place.x - corner.x) / block.place.z, 0.0, float(kBlockCells) - 1e-3);
+    bool across_x = instance.axis == kAxisX;
+    vec2 corner = across_x ? block.corner : block.corner.yx;
+    float line = clamp((instance.place_m - corner.x) / block.spacing_m, 0.0, float(kBlockCells) - 1e-3);
     int line_index = int(line);
     int one = across_x ? line_index + column * (kBlockCells + 1) : column + line_index * (kBlockCells + 1);
     int two = one + (across_x ? 1 : kBlockCells + 1);
-    BlockSample a = samples[first + one];
-    BlockSample b = samples[first + two];
-    vec4 ground = mix(a.ground, b.ground, line - float(line_index));
-    vec4 motion = mix(a.motion, b.motion, line - float(line_index));
-    vec4 swaying = mix(a.sway, b.sway, line - float(line_index));
-    float along = corner.y + float(column) * block.place.z;
-    vec2 xz = across_x ? vec2(instance.place.x, along) : vec2(along, instance.place.x);
-    float y = float(row) / rows * frame.patch_grid.w;
+    BlockSample here = sample_between(samples[first + one], samples[first + two], line - float(line_index));
+    float along = corner.y + float(column) * block.spacing_m;
+    vec2 xz = across_x ? vec2(instance.place_m, along) : vec2(along, instance.place_m);
+    float y = float(row) / rows * frame.canopy_m;
 #else
-    row = clamp(row, int(instance.place.w) & 15, int(instance.place.w) >> 4);
+    row = clamp(row, instance.across.x, instance.across.y);
     BlockSample here = samples[first + row * (kBlockCells + 1) + column];
-    vec4 ground = here.ground;
-    vec4 motion = here.motion;
-    vec4 swaying = here.sway;
-    vec2 xz = block.place.xy + vec2(column, row) * block.place.z;
-    float y = instance.place.x;
+    vec2 xz = block.corner + vec2(column, row) * block.spacing_m;
+    float y = instance.place_m;
 #endif
-    sway = swaying.xy;
-    vec2 bend = swaying.zw;
+    sway = here.sway;
     rest = vec3(xz.x, y, xz.y);
-    world = vec3(xz.x, ground.x + y, xz.y) + bend_offset(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
-    turn = bend_turn(y, frame.patch_grid.w, motion.zw, frame.wind.mean.w);
-    ground_here = ground;
-    ground_slope = vec3(motion.xy, family_share(world - frame.eye.xyz, motion.xy, bend, instance.image.w));
-    haze = haze_of(frame.light, world - frame.eye.xyz);
-    image = instance.image;
+    world = vec3(xz.x, here.height_m + y, xz.y) + bend_offset(y, frame.canopy_m, here.wind, frame.wind.response);
+    turn = bend_turn(y, frame.canopy_m, here.wind, frame.wind.response);
+    ground_here = vec4(here.height_m, here.density, here.sun_cosine, here.tint);
+    ground_slope = vec3(here.slope, family_share(world - frame.eye, here.slope, here.bend, instance.level));
+    AirLight air = haze_of(world - frame.eye);
+    air_added = air.added;
+    air_through = air.through;
+    image = ivec4(instance.image, instance.planes, instance.axis, instance.level);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

@@ -75,15 +75,15 @@ struct Texel {
 };
 
 Texel texel_of(MarchPlan plan, MarchStep taken) {
-    vec2 place = (taken.rest.xz + frame.patch_grid.xy) / frame.patch_grid.z;
-    ivec2 tile = ivec2(floor(place)) + frame.patch_tile.xy;
+    vec2 place = (taken.rest.xz + frame.patch_offset_m) / frame.patch_side_m;
+    ivec2 tile = ivec2(floor(place)) + frame.anchor_tile;
 #ifdef SURFACE
     uint lie = kLieAsGrown;
 #else
     uint lie = tile_lie(tile);
 #endif
     plan.axis = lie_turned(lie) ? 1 - plan.axis : plan.axis;
-    return Texel(march_texel(plan, taken, vec3(lie_source(lie, place), float(tile_variant(tile, frame.patch_tile.z)))), lie);
+    return Texel(march_texel(plan, taken, vec3(lie_source(lie, place), float(tile_variant(tile, frame.patch_variants)))), lie);
 }
 
 // Are a step's blades seen well enough to be told apart?
@@ -104,8 +104,8 @@ vec3 mean_tangent(MarchPath path, MarchStep taken, Texel at, float shown) {
 
 // Share of the optical depth there that the near tier leaves.
 float far_share(vec3 world) {
-    float share = march_share(handover_share(distance(world, frame.lod_eye.xyz), frame.handover.xy));
-    return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 1.0 : share;
+    float share = march_share(handover_share(distance(world, frame.lod_eye), frame.handover_band));
+    return frame.far_alone != 0 || frame.handover_mode == kHandoverOff ? 1.0 : share;
 }
 
 // Tint of the sward where what is seen of it stands, as the pixel's footprint on the ground shows it.
@@ -129,7 +129,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     float scale = plan.density * factors.x * bears_any(entry, plan);
     Light light = light_at(entry);
     vec3 normal = normal_at(entry);
-    float slope = dot(normal, frame.light.to_sun.xyz); // both in the world
+    float slope = dot(normal, frame.light.to_sun); // both in the world
     float steepness = march_steepness(plan, path.way.y);
     float ground = kOnGround * ground_reach(path);
     vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
@@ -150,7 +150,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a * land_share(entry, plan, taken.rest);
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
-        depth *= far_share(frame.eye.xyz + view.way * middle);
+        depth *= far_share(frame.eye + view.way * middle);
         depth = march_beside(depth);
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
@@ -159,7 +159,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         albedo *= march_tint(taken.layer, steepness);
 #endif
         float shown = mean_of(lost);
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, at, shown), taken.rest.y / frame.patch_grid.w, shown));
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, at, shown), taken.rest.y / frame.canopy_m, shown));
         bool more = seen.through.x > 0.5;
         seen.through -= lost;
         seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;
@@ -189,14 +189,14 @@ float next_entry(View view, float from, float last, float canopy) {
     float t = from;
     for (int i = 0; i < kProbes && high >= kNever; ++i) {
         t *= ratio;
-        vec3 at = frame.eye.xyz + view.way * t;
+        vec3 at = frame.eye + view.way * t;
         bool under = at.y - ground_at(at.xz) < canopy;
         low = under ? low : t;
         high = under ? t : high;
     }
     for (int i = 0; i < kHalvings && high < kNever; ++i) {
         t = 0.5 * (low + high);
-        vec3 at = frame.eye.xyz + view.way * t;
+        vec3 at = frame.eye + view.way * t;
         bool under = at.y - ground_at(at.xz) < canopy;
         low = under ? low : t;
         high = under ? t : high;
@@ -326,8 +326,8 @@ void main() {
         vec3 grass;
         MarchWalk walk = march(view, entry, path, mix(vec4(-1.0), scene, members), seen, grass);
         half_way = min(half_way, seen.half_way);
-        vec4 haze = haze_of(frame.light, view.way * min(seen.half_way, entry.distance + 1.0));
-        radiance += grass * haze.a + haze.rgb * mean_of(through - seen.through);
+        AirLight air = haze_of(view.way * min(seen.half_way, entry.distance + 1.0));
+        radiance += grass * air.through + air.added * mean_of(through - seen.through);
         through = seen.through;
 #ifdef CREST
 #ifdef SURFACE

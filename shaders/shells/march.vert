@@ -21,12 +21,12 @@ void main() {
 #else
     ndc = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
     gl_Position = vec4(ndc, plane, 1.0);
-    float canopy = frame.patch_grid.w;
+    float canopy = frame.canopy_m;
     vec2 wind = wind_at(frame.eye.xz);
-    float top = highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y);
+    float top = highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
     Ground ground = ground_surface(frame.eye.xz);
     eye_place = vec2(eye_height < top + frame.near_m ? 1.0 : 0.0, eye_height);
     eye_ground = vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
-    eye_air = vec4(wind, sway_at(frame.eye.xyz - vec3(0.0, eye_height, 0.0), wind).xy);
+    eye_air = vec4(wind, sway_at(frame.eye - vec3(0.0, eye_height, 0.0), wind).xy);
 #endif
 }

@@ -10,14 +10,14 @@ float densest(View view, Entry entry, MarchPath path) {
         return entry.ground.z;
     }
     const int kProbes = 4;
-    float width = entry.distance / frame.eye.w;
+    float width = entry.distance / frame.focal_px;
     float reach = min(ground_reach(path), path.height.w);
     float most = 0.0;
     for (int i = 0; i < kProbes; ++i) {
         vec2 xz = frame.eye.xz + view.way.xz * (entry.distance + reach * float(i) / float(kProbes - 1));
         most = max(most, mask_density(xz, width));
     }
-    return most * frame.grass.y;
+    return most * frame.density_scale;
 #endif
 }
 
@@ -35,8 +35,8 @@ float bears_any(Entry entry, MarchPlan plan) {
 float land_share(Entry entry, MarchPlan plan, vec3 rest) {
 #ifndef SURFACE
     if (has_land()) {
-        float share = mask_density(rest.xz, plan.footprint) * frame.grass.y / plan.density;
-        bool over_it = has_heights() && rest.y * entry.lying > 1.02 * frame.patch_grid.w * land_height(rest.xz, plan.footprint);
+        float share = mask_density(rest.xz, plan.footprint) * frame.density_scale / plan.density;
+        bool over_it = has_heights() && rest.y * entry.lying > 1.02 * frame.canopy_m * land_height(rest.xz, plan.footprint);
         return over_it ? 0.0 : share;
     }
 #endif

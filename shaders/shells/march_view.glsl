@@ -51,7 +51,7 @@ struct Entry {
 View view_of(ivec2 pixel, vec2 ndc) {
     vec4 near = frame.world_from_clip * vec4(ndc, 1.0, 1.0);
     View view;
-    view.way = normalize(near.xyz / near.w - frame.eye.xyz);
+    view.way = normalize(near.xyz / near.w - frame.eye);
     view.axis = (frame.clip_from_world * vec4(view.way, 0.0)).w;
     view.dither = pixel_threshold(pixel);
     return view;
@@ -71,7 +71,7 @@ const int kTrackSteps = 4;
 const int kLandSteps = 10;
 const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of a long footprint is seen at once
 Entry entry_on_track(View view, Entry entry, float from) {
-    float canopy = frame.patch_grid.w;
+    float canopy = frame.canopy_m;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
     TrackSeen track = track_nothing();
@@ -82,8 +82,8 @@ Entry entry_on_track(View view, Entry entry, float from) {
     bool trodden = false;
     vec3 at;
     for (int n = 0; n < most; ++n) {
-        at = frame.eye.xyz + view.way * min(entry.distance, kFarthest);
-        float width = entry.distance / frame.eye.w;
+        at = frame.eye + view.way * min(entry.distance, kFarthest);
+        float width = entry.distance / frame.focal_px;
         entry.lying = land_height(at.xz, width);
         if (has_tracks()) {
             track = track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
@@ -104,7 +104,7 @@ Entry entry_on_track(View view, Entry entry, float from) {
             entry.air.xy = here.wind;
             entry.aligned = here.aligned;
         }
-        float over = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.mean.w).y);
+        float over = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.response).y);
         bool past = has_heights() && over < -0.1 * canopy && down > 0.1 * canopy; // in the side of something: back by half
         if ((over < 0.02 * canopy && !past) || n == most - 1) {
             break;
@@ -118,15 +118,15 @@ Entry entry_on_track(View view, Entry entry, float from) {
         entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
     }
     if (has_heights()) {
-        entry.ground.z = mask_density(at.xz, entry.distance / frame.eye.w) * frame.grass.y;
+        entry.ground.z = mask_density(at.xz, entry.distance / frame.focal_px) * frame.density_scale;
     }
     return entry;
 }
 
 // Height over the ground at which rays come into the canopy from above.
 float canopy_top(vec2 wind) {
-    float canopy = frame.patch_grid.w;
-    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.mean.w).y);
+    float canopy = frame.canopy_m;
+    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
 }
 
 // Where the ray comes through the canopy's upper surface from above.
@@ -134,11 +134,11 @@ Entry entry_from_above(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
     float distance_m = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     vec4 ground = texelFetch(canopy_ground, pixel, 0);
-    if (frame.clip_layout.w != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
+    if (frame.mask_mode != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
-        ground.z = mask_density(xz, distance_m / frame.eye.w) * frame.grass.y;
+        ground.z = mask_density(xz, distance_m / frame.focal_px) * frame.density_scale;
     }
-    Entry entry = Entry(distance_m, frame.patch_grid.w, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
+    Entry entry = Entry(distance_m, frame.canopy_m, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
     bool uneven = has_tracks() || has_heights();
     return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy)) : entry;
 }
@@ -153,10 +153,10 @@ Entry entry_of(View view, ivec2 pixel) {
 
 MarchPath path_of(View view, Entry entry) {
     MarchPath path;
-    vec3 at = frame.eye.xyz + view.way * entry.distance;
-    float canopy = frame.patch_grid.w;
+    vec3 at = frame.eye + view.way * entry.distance;
+    float canopy = frame.canopy_m;
     float speed = length(entry.air.xy);
-    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
+    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.response) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
     float height = min(entry.height, path.bend.w * highest());
@@ -212,15 +212,15 @@ float rise_at(Entry entry, View view) {
 
 // So far from the eye all blades are the near tier's (m).
 float near_reach() {
-    float aside = distance(frame.lod_eye.xyz, frame.eye.xyz); // in tests alone
-    return frame.mode.z != 0 || frame.mode.x == kHandoverOff ? 0.0 : max(frame.handover.x - aside, 0.0);
+    float aside = distance(frame.lod_eye, frame.eye); // in tests alone
+    return frame.far_alone != 0 || frame.handover_mode == kHandoverOff ? 0.0 : max(frame.handover_band.x - aside, 0.0);
 }
 
 #include "shells/march_land.glsl"
 
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
-    MarchPlan plan = march_look(path, vec3(1.0 / frame.eye.w, entry.distance, max(densest(view, entry, path), 0.002)));
+    MarchPlan plan = march_look(path, vec3(1.0 / frame.focal_px, entry.distance, max(densest(view, entry, path), 0.002)));
     march_choose(plan, view.dither);
     return plan;
 }

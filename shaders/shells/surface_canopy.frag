@@ -41,12 +41,12 @@ float parabola(vec3 way, vec3 up) {
     float level = dot(along, along);
     float curve = dot(along, bent) / max(level, 1e-6);
     float lifted = curve / max(1.0 + curve * height, 0.3);
-    return 0.25 * clamp(lifted * frame.patch_grid.w, -0.5, 2.0) / frame.patch_grid.w * (1.0 + sqrt(min(level, 1.0)));
+    return 0.25 * clamp(lifted * frame.canopy_m, -0.5, 2.0) / frame.canopy_m * (1.0 + sqrt(min(level, 1.0)));
 }
 
 // Share of the set's density at the mean height of its blades' area: on a ridge blades fan out. Below 1: it is the fraction beside the chart.
 float fanned_out() {
-    float y = kMeanHeight * frame.patch_grid.w;
+    float y = kMeanHeight * frame.canopy_m;
     float sum = squares.x + squares.y + squares.z;
     float product = squares.x * squares.y + squares.y * squares.z + squares.z * squares.x - dot(products, products);
     return clamp(1.0 / max(1.0 + y * (sum + y * product), 1.0), 0.05, 1.0);
@@ -54,7 +54,7 @@ float fanned_out() {
 
 // Metres along the ray from what a depth buffer holds.
 float beyond(float depth) {
-    vec3 ray = world - frame.eye.xyz;
+    vec3 ray = world - frame.eye;
     float far = length(ray);
     float axis = (frame.clip_from_world * vec4(world, 1.0)).w / far;
     return depth > 0.0 ? far - frame.near_m / (depth * axis) : 0.0;
@@ -64,7 +64,7 @@ float beyond(float depth) {
 void way_out() {
     float way = beyond(texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r);
     float least = behind < -1.0 ? texelFetch(second_air, ivec2(gl_FragCoord.xy), 0).z : 0.0;
-    vec3 ray = world - frame.eye.xyz;
+    vec3 ray = world - frame.eye;
     if (way <= kDepthStep * length(ray) + kHalfStep * least || (on_top > 0.5 && height > 0.0 && dot(ray, normal) < 0.0)) {
         discard;
     }
@@ -79,7 +79,7 @@ void main() {
     }
     bool top = on_top > 0.5;
     // Where the surface is hollow, the lifted one may be folded: of what then shows from within the true top lies elsewhere.
-    if (top && dot(world - frame.eye.xyz, normal) > 0.0) {
+    if (top && dot(world - frame.eye, normal) > 0.0) {
         discard;
     }
     if (behind > 0.0) {
@@ -94,5 +94,5 @@ void main() {
     vec3 local = to_surface(axes, wind);
     out_ground = vec4(flattened(up), float(chart) + 0.96 * fanned_out(), room);
     float first_goes_on = kHalfStep * texelFetch(canopy_exits, ivec2(gl_FragCoord.xy), 0).x - beyond(texelFetch(canopy_depth, ivec2(gl_FragCoord.xy), 0).r);
-    out_air = vec4(local.x, local.z, behind > 0.0 ? max(first_goes_on, 0.0) : parabola(normalize(world - frame.eye.xyz), up), height);
+    out_air = vec4(local.x, local.z, behind > 0.0 ? max(first_goes_on, 0.0) : parabola(normalize(world - frame.eye), up), height);
 }

@@ -46,11 +46,11 @@ float reached_over(float top) {
 
 void main() {
     vec3 root = position + surface_origin.xyz;
-    float canopy = frame.patch_grid.w;
+    float canopy = frame.canopy_m;
     vec2 level = wind_at(root.xz);
     normal = normal_in;
     wind = vec3(level.x, 0.0, level.y) - normal * dot(normal, vec3(level.x, 0.0, level.y)); // B2
-    float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.mean.w).y;
+    float top = canopy + bend_offset(canopy, canopy, vec2(length(wind), 0.0), frame.wind.response).y;
     height = lift * top * min(chart_lift.y, 1.0);
     on_top = chart_lift.y - 1.0;
     room = min(most_lift() / top, 1.0) + reached_over(top);

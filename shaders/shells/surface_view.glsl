@@ -31,9 +31,9 @@ Entry surface_entry(View view, float distance_m, vec4 ground, vec4 air) {
     int chart = int(ground.z);
     float fanned_out = min(fract(ground.z) / 0.96, 1.0);
     entry.frame = surface_frame(chart, octahedral(ground.xy));
-    vec3 under = frame.eye.xyz + view.way * min(distance_m, kFarthest) - surface_origin.xyz - entry.frame.up * (entry.height * ground.w);
+    vec3 under = frame.eye + view.way * min(distance_m, kFarthest) - surface_origin.xyz - entry.frame.up * (entry.height * ground.w);
     entry.place = chart_place(chart, under);
-    entry.ground = vec4(0.0, max(ground.w, 0.05), frame.grass.y * fanned_out, surface_tint(under));
+    entry.ground = vec4(0.0, max(ground.w, 0.05), frame.density_scale * fanned_out, surface_tint(under));
     entry.air = vec4(air.xy, 1.0, 1.0);
     entry.bend = air.z;
     entry.way_out = vec2(0.0);
@@ -77,9 +77,9 @@ vec3 height_along(Entry entry, float fall) {
 
 MarchPath path_of(View view, Entry entry) {
     MarchPath path;
-    float canopy = frame.patch_grid.w;
+    float canopy = frame.canopy_m;
     float speed = length(entry.air.xy);
-    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.mean.w) / canopy;
+    float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.response) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
     path.way = to_surface(entry.frame, view.way);

@@ -15,8 +15,8 @@ void main() {
     }
     TerrainBlock block = blocks[index / kBlockPosts];
     int post = index % kBlockPosts;
-    vec2 xz = block.place.xy + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.place.z;
-    Ground ground = ground_surface(xz, block.place.z);
+    vec2 xz = block.corner + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.spacing_m;
+    Ground ground = ground_surface(xz, block.spacing_m);
     vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
     float height = ground_at(xz);
 #ifdef FINE_GROUND
@@ -25,6 +25,6 @@ void main() {
     }
 #endif
     vec2 wind = wind_at(xz);
-    samples[index] = BlockSample(vec4(height, ground.density, dot(ground.normal, frame.light.to_sun.xyz), ground.tint),
-                                 vec4(slope, wind), sway_at(vec3(xz.x, height, xz.y), wind));
+    vec4 swaying = sway_at(vec3(xz.x, height, xz.y), wind);
+    samples[index] = BlockSample(height, ground.density, dot(ground.normal, frame.light.to_sun), ground.tint, slope, wind, swaying.xy, swaying.zw);
 }

@@ -19,8 +19,8 @@ vec3 soil_colour(vec2 xz, Ground ground, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     float tint = sward_patches(xz, anchor, ground.tint, width);
     float earth = smoothstep(0.0, 0.4, ground.density);
-    vec3 floor_here = floor_at(xz, anchor, vec2(frame.soil.a, tint), width);
-    vec3 bare = mix(frame.rock.rgb, frame.soil.rgb, has_land() ? 1.0 : earth) * (floor_here.x * mix(0.75, 1.25, tint));
+    vec3 floor_here = floor_at(xz, anchor, vec2(frame.soil_cover, tint), width);
+    vec3 bare = mix(frame.rock.rgb, frame.soil, has_land() ? 1.0 : earth) * (floor_here.x * mix(0.75, 1.25, tint));
     vec3 cover = mix(frame.moss.rgb, frame.litter.rgb, floor_here.z) * mix(1.0, floor_here.x, 0.5);
     return mix(bare, cover, floor_here.y * earth);
 }
@@ -49,39 +49,41 @@ Canopy canopy_from_afar(vec3 to_eye, vec3 normal) {
 }
 
 void main() {
-    vec3 from_eye = world - frame.eye.xyz;
+    vec3 from_eye = world - frame.eye;
     float distance_m = length(from_eye);
     vec3 to_eye = -from_eye / distance_m;
     Ground ground = ground_surface(world.xz);
 
     float shade = sway.y; // of the grass over it
     if (has_tracks()) {   // which are finer than the vertices
-        shade = sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.eye.w)).y;
+        shade = sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.focal_px)).y;
     }
-    float width = distance_m / frame.eye.w * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0);
+    float width = distance_m / frame.focal_px * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0);
     Grounds grounds = grounds_at(world.xz, width);
     vec3 soil_albedo = soil_colour(world.xz, ground, width);
     if (has_land()) {
         soil_albedo = ground_colour(soil_albedo, grounds, world.xz, ground.tint, width);
     }
-    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(1.0, shade)), soil_albedo, ground.normal, ground.density);
+    float sun = sun_seen(world.xz, 0.0);
+    vec3 soil = shade_soil(light_in_sway(frame.light, vec2(sun, shade)), soil_albedo, ground.normal, ground.density);
     if (grounds.water > 0.0) {
         soil = mix(soil, water_radiance(world.xz, to_eye, width), grounds.water);
     }
 
-    float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye.xyz), frame.far_bands[frame.patch_tile.w - 1].zw);
-    left_shells *= frame.grass.z; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
+    float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye), frame.far_bands[frame.far_levels - 1].outgoing);
+    left_shells *= frame.ground_takes_over; // 0 where no tier hands its blades to the ground (--tiers blades, reference)
     Canopy canopy = Canopy(vec4(0.0), vec4(0.0));
     if (left_shells > 0.0) {
         canopy = canopy_from_afar(to_eye, ground.normal);
     }
     float coverage = 1.0 - pow(1.0 - min(canopy.sun.a, 0.999), ground.density * left_shells);
     // The table is of flat ground.
-    float slope = dot(ground.normal, frame.light.to_sun.xyz);
+    float slope = dot(ground.normal, frame.light.to_sun);
     float relight = canopy_sun(frame.light, canopy.sky.a, slope) / max(canopy_sun(frame.light, canopy.sky.a, frame.light.to_sun.y), 1e-3);
-    vec3 grass = (canopy.sun.rgb * relight + canopy.sky.rgb) * sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.eye.w));
+    vec3 grass = canopy.sun.rgb * (relight * sun) + canopy.sky.rgb;
+    grass *= sward_tint(sward_patches(world.xz, ivec2(frame.anchor_x, frame.anchor_z), ground.tint, distance_m / frame.focal_px));
 
-    vec4 haze = haze_of(frame.light, from_eye);
-    vec3 radiance = mix(soil, grass, coverage) * haze.a + haze.rgb;
+    AirLight air = haze_of(from_eye);
+    vec3 radiance = mix(soil, grass, coverage) * air.through + air.added;
     write_surface(radiance, vec3(kTierGround, coverage, 0.0), vec3(0.0), ground.normal);
 }

@@ -12,9 +12,9 @@ out float gust; // place of the wind here among those that the far appearance kn
 void main() {
     TerrainBlock block = blocks[gl_InstanceID];
     vec2 cell = vec2(gl_VertexID % (kBlockCells + 1), gl_VertexID / (kBlockCells + 1));
-    vec2 xz = block.place.xy + cell * block.place.z;
-    world = vec3(xz.x, samples[gl_InstanceID * kBlockPosts + gl_VertexID].ground.x, xz.y);
-    sway = samples[gl_InstanceID * kBlockPosts + gl_VertexID].sway.xy;
-    gust = far_wind_place(frame.wind, samples[gl_InstanceID * kBlockPosts + gl_VertexID].motion.zw);
+    vec2 xz = block.corner + cell * block.spacing_m;
+    world = vec3(xz.x, samples[gl_InstanceID * kBlockPosts + gl_VertexID].height_m, xz.y);
+    sway = samples[gl_InstanceID * kBlockPosts + gl_VertexID].sway;
+    gust = far_wind_place(frame.wind, samples[gl_InstanceID * kBlockPosts + gl_VertexID].wind);
     gl_Position = frame.clip_from_world * vec4(world, 1.0);
 }

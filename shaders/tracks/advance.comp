@@ -7,23 +7,23 @@ layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints { TrackP
 
 void main() {
     TrackBlock block = blocks[gl_WorkGroupID.z];
-    ivec2 cell = ivec2(block.page.w & 255, block.page.w >> 8) + ivec2(gl_LocalInvocationID.xy);
-    int word = cell_word(block.page.x, cell);
+    ivec2 cell = block.first_cell + ivec2(gl_LocalInvocationID.xy);
+    int word = cell_word(block.slot, cell);
     TrackRules rules = the_rules();
-    vec2 middle = rules.grid.x * (vec2(cell) + 0.5);
+    vec2 middle = rules.cell_m * (vec2(cell) + 0.5);
     vec2 pressed = track_unpack(shown[word]);
     bool touched = false;
 #ifndef PRESS_ONLY
-    int own = moving_index(block.own.x, ivec2(gl_LocalInvocationID.xy));
+    int own = moving_index(block.own, ivec2(gl_LocalInvocationID.xy));
     TrackCell next = track_advance(cell_at(own), changes[own]);
 #endif
-    for (int n = block.page.y; n < block.page.y + block.page.z; ++n) {
+    for (int n = block.first_print; n < block.first_print + block.prints; ++n) {
         TrackContact contact = track_contact(rules, prints[n], middle);
         if (contact.touched == 1) {
             touched = true;
-            pressed = track_pressed(rules, pressed, contact, prints[n].shape.w);
+            pressed = track_pressed(rules, pressed, contact, prints[n].load);
 #ifndef PRESS_ONLY
-            next = track_bent(rules, next, contact, block.ground.xy);
+            next = track_bent(rules, next, contact, block.slope);
 #endif
         }
     }

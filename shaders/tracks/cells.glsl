@@ -10,10 +10,10 @@ layout(std430, binding = BIND_TRACK_BENDS) buffer TrackBends { vec4 bends[]; }; 
 layout(std430, binding = BIND_TRACK_CHANGES) buffer TrackChanges { vec4 changes[]; }; // of them, in the last step
 layout(std430, binding = BIND_TRACK_SHOWN) buffer TrackShown { uint shown[]; };
 layout(std430, binding = BIND_TRACK_WORK) readonly buffer TrackWork { TrackBlock blocks[]; };
-uniform vec4 rules_grid, rules_waves, rules_grass;
+uniform TrackRules step_rules;
 
 TrackRules the_rules() {
-    return TrackRules(rules_grid, rules_waves, rules_grass);
+    return step_rules;
 }
 
 // Word of what lies in a page's cell.

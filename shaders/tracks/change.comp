@@ -5,11 +5,11 @@
 
 vec4 beside(TrackBlock block, ivec2 cell, ivec2 by) {
     ivec2 at = cell + by;
-    int place = block.own.x;
+    int place = block.own;
     if (at.x < 0 || at.x >= kTrackBlock || at.y < 0 || at.y >= kTrackBlock) {
         place = at.x < 0 ? block.beside.x : at.x >= kTrackBlock ? block.beside.y : at.y < 0 ? block.beside.z : block.beside.w;
         at = place < 0 ? cell : (at + kTrackBlock) % kTrackBlock;
-        place = place < 0 ? block.own.x : place;
+        place = place < 0 ? block.own : place;
     }
     return bends[moving_index(place, at)];
 }
@@ -17,7 +17,7 @@ vec4 beside(TrackBlock block, ivec2 cell, ivec2 by) {
 void main() {
     TrackBlock block = blocks[gl_WorkGroupID.z];
     ivec2 cell = ivec2(gl_LocalInvocationID.xy);
-    int own = moving_index(block.own.x, cell);
+    int own = moving_index(block.own, cell);
     changes[own] = track_change(the_rules(), cell_at(own), beside(block, cell, ivec2(-1, 0)), beside(block, cell, ivec2(1, 0)),
                                 beside(block, cell, ivec2(0, -1)), beside(block, cell, ivec2(0, 1)));
 }

@@ -3,6 +3,6 @@
 #include "tracks/cells.glsl"
 
 void main() {
-    int own = cell_word(blocks[gl_WorkGroupID.z].page.x, ivec2(gl_GlobalInvocationID.xy));
+    int own = cell_word(blocks[gl_WorkGroupID.z].slot, ivec2(gl_GlobalInvocationID.xy));
     shown[own] = track_rebased(shown[own]);
 }

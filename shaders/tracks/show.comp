@@ -26,7 +26,7 @@ void main() {
     if (cell.x >= side || cell.y >= side) {
         return;
     }
-    int slot = blocks[gl_WorkGroupID.z].page.x;
+    int slot = blocks[gl_WorkGroupID.z].slot;
     ivec2 from = 2 * cell;
     TrackSeen north = track_mean(seen_below(slot, from), seen_below(slot, from + ivec2(1, 0)), 0.5);
     TrackSeen south = track_mean(seen_below(slot, from + ivec2(0, 1)), seen_below(slot, from + ivec2(1, 1)), 0.5);

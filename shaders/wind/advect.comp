@@ -24,7 +24,7 @@ const float kBrakeLength_m = 1.0; // what is faster than anything explains loses
 
 // Columns and rows of a stencil that begins at logical cell `low`, as storage places.
 ivec2 stencil(ivec2 low, int k) {
-    return ivec2(stored_column(near_cell(low.x + k)), stored_row(near_cell(low.y + k)) * grid.plan.x);
+    return ivec2(stored_column(near_cell(low.x + k)), stored_row(near_cell(low.y + k)) * grid.cells);
 }
 
 // Velocity at a place (cells from the corner), bilinear.
@@ -41,12 +41,12 @@ vec2 velocity_at(vec2 place) {
 
 // Where the air at `place` was a step ago.
 vec2 departure(vec2 place, vec2 velocity) {
-    vec2 back = place - velocity_at(place - 0.5 * grid.size.w * velocity) * grid.size.w;
+    vec2 back = place - velocity_at(place - 0.5 * grid.step_per_m * velocity) * grid.step_per_m;
 #ifdef PERIODIC
-    float n = float(grid.plan.x);
+    float n = float(grid.cells);
     return back - n * floor(back / n);
 #else
-    return clamp(back, vec2(0.0), vec2(float(grid.plan.x)));
+    return clamp(back, vec2(0.0), vec2(float(grid.cells)));
 #endif
 }
 
@@ -90,19 +90,19 @@ vec2 confinement(ivec2 c) {
     float omega_u = 0.5 * (nw + sw), omega_v = 0.5 * (nw + ne);
     float fx = omega_u * slope_u.y / (length(slope_u) + 1e-9);
     float fz = -omega_v * slope_v.x / (length(slope_v) + 1e-9);
-    return grid.rates.x * grid.size.x * grid.size.z * vec2(fx, fz);
+    return grid.confinement * grid.cell_m * grid.step_s * vec2(fx, fz);
 }
 #endif
 
 // Pulls a component back where the air is faster than present forces and the ambient wind explain.
 float brake(float component, float speed) {
-    float excess = max(speed - grid.rates.w, 0.0);
-    float left = grid.rates.w + excess / (1.0 + excess * grid.size.z / kBrakeLength_m);
+    float excess = max(speed - grid.brake_mps, 0.0);
+    float left = grid.brake_mps + excess / (1.0 + excess * grid.step_s / kBrakeLength_m);
     return excess > 0.0 ? component * left / speed : component;
 }
 
 float dissipated(float component, float mean) {
-    return mean + (component - mean) * grid.rates.z;
+    return mean + (component - mean) * grid.kept;
 }
 
 bool west_is_rim() {
@@ -133,30 +133,30 @@ void main() {
     u += push.x;
     v += push.y;
 #endif
-    ivec2 inner = c - grid.inner.x;
-    if (all(greaterThanEqual(inner, ivec2(0))) && all(lessThan(inner, ivec2(grid.inner.y)))) {
+    ivec2 inner = c - grid.inner_first;
+    if (all(greaterThanEqual(inner, ivec2(0))) && all(lessThan(inner, ivec2(grid.inner_cells)))) {
         // Towards the rim a face is open by 2 and pressure behind it is 0; of the far rim's faces no half was taken.
         uint open = weights[own];
         float here = pressure[own];
         u += 0.5 * float(open & 255u) / 64.0 * (here - (inner.x == 0 && west_is_rim() ? 0.0 : pressure[west]));
         v += 0.5 * float((open >> 16u) & 255u) / 64.0 * (here - (inner.y == 0 && west_is_rim() ? 0.0 : pressure[north]));
     }
-    if (grid.rates.y > 0.0) { // explicit: Fluid keeps this number where it is stable
-        u += grid.rates.y * (wind_u[west] + wind_u[east] + wind_u[north] + wind_u[south] - 4.0 * u0);
-        v += grid.rates.y * (wind_v[west] + wind_v[east] + wind_v[north] + wind_v[south] - 4.0 * v0);
+    if (grid.diffusion > 0.0) { // explicit: Fluid keeps this number where it is stable
+        u += grid.diffusion * (wind_u[west] + wind_u[east] + wind_u[north] + wind_u[south] - 4.0 * u0);
+        v += grid.diffusion * (wind_v[west] + wind_v[east] + wind_v[north] + wind_v[south] - 4.0 * v0);
     }
     u = brake(dissipated(u, grid.mean.x), length(vec2(u, at_u.y)));
     v = brake(dissipated(v, grid.mean.y), length(vec2(at_v.x, v)));
 #ifndef PERIODIC
-    ivec2 last = ivec2(grid.inner.x + grid.inner.y);
-    ivec2 to_rim = min(c - grid.inner.x, last - 1 - c);
+    ivec2 last = ivec2(grid.inner_first + grid.inner_cells);
+    ivec2 to_rim = min(c - grid.inner_first, last - 1 - c);
     float depth = float(min(to_rim.x, to_rim.y));
-    if (depth < grid.mean.z) {
-        float t = clamp(1.0 - depth / grid.mean.z, 0.0, 1.0);
-        float share = depth < 0.0 ? 1.0 : grid.mean.w * t * t;
+    if (depth < grid.rim_cells) {
+        float t = clamp(1.0 - depth / grid.rim_cells, 0.0, 1.0);
+        float share = depth < 0.0 ? 1.0 : grid.rim_share * t * t;
         // Faces of the solved cells on their far side stay with the solver.
-        float share_u = depth < 0.0 && c.x == last.x && to_rim.y >= 0 ? grid.mean.w : share;
-        float share_v = depth < 0.0 && c.y == last.y && to_rim.x >= 0 ? grid.mean.w : share;
+        float share_u = depth < 0.0 && c.x == last.x && to_rim.y >= 0 ? grid.rim_share : share;
+        float share_v = depth < 0.0 && c.y == last.y && to_rim.x >= 0 ? grid.rim_share : share;
         u += (ambient_wind(rim_field, west_face(c)).x - u) * share_u;
         v += (ambient_wind(rim_field, north_face(c)).y - v) * share_v;
     }

@@ -10,7 +10,7 @@ layout(location = 0) uniform vec4 cosines;  // of the groups' phases, times thei
 layout(location = 1) uniform vec4 sines;    // likewise; w: root mean square to keep (m/s a component)
 
 float psi(int corner) {
-    int count = grid.plan.x * grid.plan.x;
+    int count = grid.cells * grid.cells;
     vec2 a = stream[corner], b = stream[count + corner], c = stream[2 * count + corner];
     return dot(cosines.xyz, vec3(a.x, b.x, c.x)) + dot(sines.xyz, vec3(a.y, b.y, c.y));
 }

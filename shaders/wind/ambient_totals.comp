@@ -8,7 +8,7 @@ layout(std430, binding = BIND_WIND_TOTALS) writeonly buffer WindTotals { float t
 shared vec3 sums[WIND_SOLVE_GROUP];
 
 void main() {
-    int own = int(gl_LocalInvocationIndex), count = grid.plan.x * grid.plan.x;
+    int own = int(gl_LocalInvocationIndex), count = grid.cells * grid.cells;
     vec3 sum = vec3(0.0);
     for (int i = own; i < count; i += WIND_SOLVE_GROUP) {
         float u = wind_u[i], v = wind_v[i];

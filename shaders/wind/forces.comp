@@ -46,7 +46,7 @@ void main() {
         sum += wind_force_at(force, east).outflow.x - wind_force_at(force, west).outflow.x;
         sum += wind_force_at(force, south).outflow.y - wind_force_at(force, north).outflow.y;
     }
-    inflow[cell_index(cell)] = sum * grid.size.y;
+    inflow[cell_index(cell)] = sum * grid.per_m;
 #else
     vec2 wanted = vec2(0.0), rate = vec2(0.0);
     for (int i = tile.z; i < tile.z + tile.w; ++i) {
@@ -56,7 +56,7 @@ void main() {
         rate += vec2(at_west.rate, at_north.rate);
     }
     int index = cell_index(cell);
-    u[index] = relaxed(u[index], wanted.x, rate.x, grid.size.z);
-    v[index] = relaxed(v[index], wanted.y, rate.y, grid.size.z);
+    u[index] = relaxed(u[index], wanted.x, rate.x, grid.step_s);
+    v[index] = relaxed(v[index], wanted.y, rate.y, grid.step_s);
 #endif
 }

@@ -12,15 +12,15 @@ layout(location = 0) uniform int level;
 const float kWeightUnit = 64.0; // a byte of this is an open face
 
 int side_of(int l) {
-    return grid.level_plan[l].x;
+    return grid.levels[l].cells;
 }
 
 // Element of a cell of a level that lies in it.
 int element(int l, ivec2 c) {
-    ivec4 plan = grid.level_plan[l];
-    ivec2 place = c + grid.level_shift[l].xy;
-    place -= ivec2(greaterThanEqual(place, ivec2(plan.y))) * plan.y;
-    return plan.z + place.y * plan.y + place.x;
+    WindLevel own = grid.levels[l];
+    ivec2 place = c + own.stored;
+    place -= ivec2(greaterThanEqual(place, ivec2(own.row))) * own.row;
+    return own.first + place.y * own.row + place.x;
 }
 
 // The cell that stands in for one beyond the level's edge.

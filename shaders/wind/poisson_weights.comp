@@ -7,7 +7,7 @@ layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
 
 float open_face(ivec2 c, ivec2 other) {
     ivec2 near = held(0, other);
-    bool closed = grid.plan.w != 0 && !beyond(0, other) && wind_solid[element(0, near)] != 0u;
+    bool closed = grid.has_solids != 0 && !beyond(0, other) && wind_solid[element(0, near)] != 0u;
     return closed ? 0.0 : beyond(0, other) ? 2.0 : 1.0;
 }
 
@@ -57,7 +57,7 @@ void main() {
     int own = element(level, c);
     if (level == 0) {
         vec4 w = vec4(open_face(c, c - ivec2(1, 0)), open_face(c, c + ivec2(1, 0)), open_face(c, c - ivec2(0, 1)), open_face(c, c + ivec2(0, 1)));
-        bool solid = grid.plan.w != 0 && wind_solid[own] != 0u;
+        bool solid = grid.has_solids != 0 && wind_solid[own] != 0u;
         weights[own] = solid ? 0u : pack_weights(w);
     } else {
         ivec2 f = 2 * c;

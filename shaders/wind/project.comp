@@ -12,9 +12,9 @@ layout(std430, binding = BIND_WIND_V_CARRIED) writeonly buffer WindVCarried { fl
 
 // Pressure at a solved cell, 0 in the rim.
 float pressure_of(ivec2 c) {
-    ivec2 inner = held(0, c - grid.inner.x);
+    ivec2 inner = held(0, c - grid.inner_first);
     float value = pressure[element(0, inner)];
-    return beyond(0, c - grid.inner.x) ? 0.0 : value;
+    return beyond(0, c - grid.inner_first) ? 0.0 : value;
 }
 
 void main() {
@@ -24,18 +24,18 @@ void main() {
     }
     int own = cell_index(c);
     int west = near_index(c - ivec2(1, 0)), north = near_index(c - ivec2(0, 1));
-    ivec2 inner = c - grid.inner.x;
-    bvec2 within = bvec2(inner.x >= 0 && inner.x < grid.inner.y, inner.y >= 0 && inner.y < grid.inner.y);
+    ivec2 inner = c - grid.inner_first;
+    bvec2 within = bvec2(inner.x >= 0 && inner.x < grid.inner_cells, inner.y >= 0 && inner.y < grid.inner_cells);
     float u = sane(wind_u[own]), v = sane(wind_v[own]);
     float here = pressure_of(c);
     vec2 half_step = vec2(0.0);
-    if (within.y && inner.x >= 0 && inner.x <= grid.inner.y) {
+    if (within.y && inner.x >= 0 && inner.x <= grid.inner_cells) {
         float w = within.x ? unpack_weights(weights[own]).x : unpack_weights(weights[west]).y;
         float taken = w * (here - pressure_of(c - ivec2(1, 0)));
         u = w > 0.0 ? sane(u - taken) : solid_velocity_between(own, west).x;
         half_step.x = within.x ? 0.5 * taken : 0.0;
     }
-    if (within.x && inner.y >= 0 && inner.y <= grid.inner.y) {
+    if (within.x && inner.y >= 0 && inner.y <= grid.inner_cells) {
         float w = within.y ? unpack_weights(weights[own]).z : unpack_weights(weights[north]).w;
         float taken = w * (here - pressure_of(c - ivec2(0, 1)));
         v = w > 0.0 ? sane(v - taken) : solid_velocity_between(own, north).y;

@@ -10,7 +10,7 @@ layout(std430, binding = BIND_WIND_V_NEXT) writeonly buffer WindVNext { float v_
     float name(vec2 place) {                                                                                              \
         vec2 low = floor(place), within = place - low;                                                                    \
         int x0 = stored_column(near_cell(int(low.x))), x1 = stored_column(near_cell(int(low.x) + 1));                     \
-        int y0 = stored_row(near_cell(int(low.y))) * grid.plan.x, y1 = stored_row(near_cell(int(low.y) + 1)) * grid.plan.x; \
+        int y0 = stored_row(near_cell(int(low.y))) * grid.cells, y1 = stored_row(near_cell(int(low.y) + 1)) * grid.cells; \
         return mix(mix(field[y0 + x0], field[y0 + x1], within.x), mix(field[y1 + x0], field[y1 + x1], within.x), within.y); \
     }
 BILINEAR_AT(u_at, wind_u)
@@ -26,7 +26,7 @@ void main() {
     int north = near_index(c - ivec2(0, 1)), south = near_index(c + ivec2(0, 1));
     vec2 at_u = vec2(wind_u[own], 0.25 * (wind_v[own] + wind_v[west] + wind_v[south] + wind_v[near_index(c + ivec2(-1, 1))]));
     vec2 at_v = vec2(0.25 * (wind_u[own] + wind_u[east] + wind_u[north] + wind_u[near_index(c + ivec2(1, -1))]), wind_v[own]);
-    float n = float(grid.plan.x);
-    u_next[own] = u_at(clamp(vec2(c) - at_u * grid.size.w, vec2(0.0), vec2(n)));
-    v_next[own] = v_at(clamp(vec2(c) - at_v * grid.size.w, vec2(0.0), vec2(n)));
+    float n = float(grid.cells);
+    u_next[own] = u_at(clamp(vec2(c) - at_u * grid.step_per_m, vec2(0.0), vec2(n)));
+    v_next[own] = v_at(clamp(vec2(c) - at_v * grid.step_per_m, vec2(0.0), vec2(n)));
 }

@@ -18,7 +18,7 @@ void main() {
     float omega = spin(c);
     vec2 slope = vec2(abs(spin(c + ivec2(1, 0))) - abs(spin(c - ivec2(1, 0))), abs(spin(c + ivec2(0, 1))) - abs(spin(c - ivec2(0, 1))));
     vec2 n = slope / (length(slope) + 1e-9);
-    float push = grid.rates.x * grid.size.x * grid.size.z * omega;
-    wind_u[own] = (wind_u[own] + push * n.y) * grid.rates.z;
-    wind_v[own] = (wind_v[own] - push * n.x) * grid.rates.z;
+    float push = grid.confinement * grid.cell_m * grid.step_s * omega;
+    wind_u[own] = (wind_u[own] + push * n.y) * grid.kept;
+    wind_v[own] = (wind_v[own] - push * n.x) * grid.kept;
 }

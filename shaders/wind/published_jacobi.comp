@@ -9,7 +9,7 @@ layout(std430, binding = BIND_WIND_NEXT_PRESSURE) writeonly buffer WindNextPress
 
 void main() {
     ivec2 c = ivec2(gl_GlobalInvocationID.xy);
-    if (any(lessThan(c, ivec2(1))) || any(greaterThanEqual(c, ivec2(grid.plan.x - 1)))) {
+    if (any(lessThan(c, ivec2(1))) || any(greaterThanEqual(c, ivec2(grid.cells - 1)))) {
         return;
     }
     int own = cell_index(c);

@@ -29,10 +29,10 @@ layout(std430, binding = BIND_WIND_FOOTPRINTS) readonly buffer Footprints {
 
 bool covers(WindSolid one, vec2 xz) {
     vec2 own = solid_frame(one, xz);
-    if (int(one.motion.w + 0.5) != kSolidFootprint)
+    if (one.kind != kSolidFootprint)
         return solid_covers(one, own);
     int bit = solid_bit(one, own);
-    return bit >= 0 && (words[one.bitmap.x + bit / 32] >> uint(bit % 32) & 1u) != 0u;
+    return bit >= 0 && (words[one.first_word + bit / 32] >> uint(bit % 32) & 1u) != 0u;
 }
 
 void main() {

@@ -11,5 +11,5 @@ void main() {
         return;
     }
     int own = cell_index(c);
-    vorticity[own] = (wind_v[own] - wind_v[near_index(c - ivec2(1, 0))] - wind_u[own] + wind_u[near_index(c - ivec2(0, 1))]) * grid.size.y;
+    vorticity[own] = (wind_v[own] - wind_v[near_index(c - ivec2(1, 0))] - wind_u[own] + wind_u[near_index(c - ivec2(0, 1))]) * grid.per_m;
 }

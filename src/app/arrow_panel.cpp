@@ -253,7 +253,7 @@ void ArrowPanel::draw_selected() {
     ImGui::Text("%s%s%s", arrow.id.c_str(), arrow.parent.empty() ? "" : "  continues ", arrow.parent.c_str());
     ImGui::TextDisabled("root %.2f, %.2f   tip %.2f, %.2f   %.2f m", arrow.root.x, arrow.root.y, arrow.tip.x, arrow.tip.y,
                         glm::distance(arrow.root, arrow.tip));
-    double strength = arrow.strength_ms, radius = arrow.radius_m;
+    double strength = arrow.strength_mps, radius = arrow.radius_m;
     if (edit_number(edit_, "strength, m/s", strength, 0.0, 60.0, "%.2f"))
         edit_.set_strength(at, strength);
     if (edit_number(edit_, "radius, m", radius, 0.1, 100.0, "%.2f"))

@@ -43,7 +43,7 @@ std::string short_count(std::uint64_t count) {
 
 std::string cockpit_line(const CockpitFacts& facts) {
     const int digits = std::abs(facts.above_ground_m) < 100 ? 1 : 0;
-    return fmt::format("{} km/h  {} m above ground  hdg {}  |  {}/{} ms  |  living {}  drawn {}  far {} px  |  {}  t {} s{}{}", number(facts.speed_ms * 3.6, 0),
+    return fmt::format("{} km/h  {} m above ground  hdg {}  |  {}/{} ms  |  living {}  drawn {}  far {} px  |  {}  t {} s{}{}", number(facts.speed_mps * 3.6, 0),
                        number(facts.above_ground_m, digits), heading(facts.heading_deg), number(facts.p50_ms, 1), number(facts.p99_ms, 1),
                        short_count(facts.living), short_count(facts.drawn), short_count(facts.marched), facts.hour, number(facts.time_s, 1), pace(facts),
                        facts.note.empty() ? "" : "  |  " + facts.note);

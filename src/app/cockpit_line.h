@@ -8,7 +8,7 @@ namespace sward::app {
 
 /// What the line on the picture says.
 struct CockpitFacts {
-    double speed_ms = 0;     ///< of the eye, in simulated or real time, whichever moves it
+    double speed_mps = 0;     ///< of the eye, in simulated or real time, whichever moves it
     double above_ground_m = 0;
     double heading_deg = 0;  ///< clockwise from north; any
     double p50_ms = 0, p99_ms = 0;

@@ -39,17 +39,21 @@ tracks::TrackPass::Work crossed(double cell_m) {
         for (int z = kFirst; z < kFirst + kRows; ++z) {
             for (int x = 0; x < kRow; ++x) {
                 shared::TrackBlock block{};
-                block.page = {page, page, x == kRow / 2 || x == kRow / 2 - 1 ? 1 : 0, (x + 256 * z) * shared::kTrackBlock};
-                block.own.x = place(page_x, page_z, x, z);
+                block.slot = block.first_print = page;
+                block.prints = x == kRow / 2 || x == kRow / 2 - 1 ? 1 : 0;
+                block.first_cell = glm::ivec2(x, z) * shared::kTrackBlock;
+                block.own = place(page_x, page_z, x, z);
                 block.beside = {place(page_x, page_z, x - 1, z), place(page_x, page_z, x + 1, z), place(page_x, page_z, x, z - 1), place(page_x, page_z, x, z + 1)};
                 work.moving.push_back(block);
             }
         }
         shared::TrackPrint print{};
-        print.now = {middle, middle, 0, 1};
-        print.before = {middle - 0.2f, middle, 0, 1};
-        print.shape = {0.15f, 0.35f, 0, 1};
-        print.kind.x = shared::kPrintWheel;
+        print.now = {{middle, middle}, {0, 1}};
+        print.before = {{middle - 0.2f, middle}, {0, 1}};
+        print.half_width_m = 0.15f;
+        print.half_depth_m = 0.35f;
+        print.load = 1;
+        print.kind = shared::kPrintWheel;
         work.prints.push_back(print);
     }
     return work;
@@ -61,8 +65,9 @@ tracks::TrackPass::Work full() {
     for (int place = 0; place < kMostBlocks; ++place) {
         shared::TrackBlock block{};
         const int n = place % shared::kTrackBlocks;
-        block.page = {place / shared::kTrackBlocks, 0, 0, (n % shared::kTrackRow + 256 * (n / shared::kTrackRow)) * shared::kTrackBlock};
-        block.own.x = place;
+        block.slot = place / shared::kTrackBlocks;
+        block.first_cell = glm::ivec2(n % shared::kTrackRow, n / shared::kTrackRow) * shared::kTrackBlock;
+        block.own = place;
         block.beside = {-1, -1, -1, -1};
         work.moving.push_back(block);
     }

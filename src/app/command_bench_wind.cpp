@@ -19,7 +19,7 @@ constexpr int kMargin = 64;     // cells at the rim that no figure counts: the t
 constexpr int kWarm = 8;        // steps before the first that counts
 constexpr int kRounds = 9;      // of each scheme in turns, so that what else the machine does hits both
 constexpr int kSteps = 2;       // a round; the time is that of one
-constexpr glm::vec2 kMean_ms{4, 0};
+constexpr glm::vec2 kMean_mps{4, 0};
 
 /// Air without obstacles or forces.
 class StillInputs final : public wind::FluidInputs {
@@ -27,7 +27,7 @@ public:
     [[nodiscard]] bool active() const override { return true; }
     bool fill_solids(const wind::FluidGrid&, bool) override { return false; }
     void apply_forces(const wind::FluidGrid&) override {}
-    [[nodiscard]] double loudest_ms() const override { return 0; }
+    [[nodiscard]] double loudest_mps() const override { return 0; }
 };
 
 /// Gusts of 2 m/s over a mean wind of 4 m/s, down to six cells, as a window of a larger torus.
@@ -38,8 +38,8 @@ void gusty_state(std::vector<float>& u, std::vector<float>& v) {
     for (int y = 0; y < kCells; ++y) {
         for (int x = 0; x < kCells; ++x) {
             const std::size_t at = static_cast<std::size_t>(y) * kSide + x;
-            u.push_back(kMean_ms.x + 2 * wide_u[at]);
-            v.push_back(kMean_ms.y + 2 * wide_v[at]);
+            u.push_back(kMean_mps.x + 2 * wide_u[at]);
+            v.push_back(kMean_mps.y + 2 * wide_v[at]);
         }
     }
 }
@@ -77,7 +77,7 @@ void bench_wind(BenchReport& report) {
     wind::FluidSettings settings;
     settings.cells = kCells;
     settings.confinement = 0.3;
-    settings.mean_ms = kMean_ms;
+    settings.mean_mps = kMean_mps;
     const std::uint64_t before = gl::gpu_bytes();
     wind::Fluid fluid(settings);
     const std::uint64_t between = gl::gpu_bytes();
@@ -87,9 +87,9 @@ void bench_wind(BenchReport& report) {
     published.set_state(u, v);
     StillInputs inputs;
     shared::WindField rim{};
-    rim.mean = {kMean_ms.x, kMean_ms.y, 0, 0};
+    rim.mean = kMean_mps;
     double time_s = 0;
-    const auto own_step = [&] { fluid.step(inputs, time_s += settings.step_s, rim, shared::kWindCeiling_ms); };
+    const auto own_step = [&] { fluid.step(inputs, time_s += settings.step_s, rim, shared::kWindCeiling_mps); };
     const auto published_step = [&] { published.step(); };
     for (int i = 0; i < kWarm; ++i) {
         own_step();

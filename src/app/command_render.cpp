@@ -9,6 +9,7 @@
 
 #include "app/camera_file.h"
 #include "app/capture.h"
+#include "app/channels.h"
 #include "app/commands.h"
 #include "app/flight_record.h"
 #include "app/io.h"
@@ -162,16 +163,99 @@ FrameRange whole_of(const FlightRecord& record, const Options& options) {
     return {0, static_cast<int>(std::min<double>(kMostFrames, std::floor(steps + 1e-6)))};
 }
 
+/// One picture of every moment: the only one, or a channel's, with options of its own for it.
+struct Screen {
+    Options options;
+    OutputNames names;
+    std::optional<Channel> channel;
+    View view;
+
+    Screen(Field& field, Options own, std::optional<Channel> of) : options(std::move(own)), names(options), channel(std::move(of)), view(field) {
+        render::FrameSettings& settings = render::Access::settings(view);
+        settings = options.frame;
+        settings.aov = !options.aovs.empty();
+    }
+    [[nodiscard]] Camera camera(const Look& look) const { return channel ? channel_camera(look.camera, *channel) : look.camera; }
+    [[nodiscard]] const render::ViewState& drawn() { return render::Access::state(view); }
+    void draw(const Look& look) {
+        render::Access::settings(view).lod_eye = look.lod_eye;
+        view.draw(camera(look), {options.frame.width, options.frame.height});
+    }
+};
+
+Options options_of(const Channel& channel, const Options& options) {
+    Options own = options;
+    own.output = channel_file(options.output, channel);
+    own.frame.width = channel.size.x;
+    own.frame.height = channel.size.y;
+    return own;
+}
+
+/// Every picture's name is looked at before any costly work.
+std::vector<Channel> channels_of(const Options& options) {
+    if (options.channels.empty()) {
+        check_outputs(options);
+        return {};
+    }
+    std::vector<Channel> channels = read_channels(options.channels);
+    for (const Channel& channel : channels)
+        check_outputs(options_of(channel, options));
+    return channels;
+}
+
+std::vector<Screen> screens_of(const Options& options, std::vector<Channel> channels, Field& field) {
+    std::vector<Screen> screens;
+    screens.reserve(std::max<std::size_t>(1, channels.size()));
+    if (channels.empty())
+        screens.emplace_back(field, options, std::nullopt);
+    for (Channel& channel : channels)
+        screens.emplace_back(field, options_of(channel, options), std::move(channel));
+    return screens;
+}
+
 /// The field as it is at a picture's time.
-void simulate(const Shot& shot, const Look& look, Field& field, const SimulationLimits& limits, std::optional<RecordedTime>& steps) {
+void simulate(const Shot& shot, const Look& look, const std::vector<Screen>& screens, Field& field, std::optional<RecordedTime>& steps) {
+    const SimulationLimits limits = render::limits_of(screens.front().options.frame);
     if (!shot.record) {
-        const glm::dvec3 eye = eye_of(look.camera);
-        field.simulate(look.time_s, {&eye, 1}, limits);
+        std::vector<glm::dvec3> eyes;
+        for (const Screen& screen : screens)
+            eyes.push_back(eye_of(screen.camera(look)));
+        field.simulate(look.time_s, eyes, limits);
         return;
     }
     if (!steps)
         steps.emplace(field, limits);
     steps->follow(*shot.record, look.time_s);
+}
+
+/// Draws every picture, and writes those of a sequence; returns their statistics, where they are asked for.
+std::vector<std::string> draw_all(const Shot& shot, const Options& options, Field& field, std::vector<Screen>& screens, const gl::DebugMessages& messages) {
+    const std::string gpu = gl::context_info().renderer;
+    const int count = shot.frames.last - shot.frames.first + 1;
+    std::optional<base::Progress> progress;
+    if (count > 1)
+        progress.emplace("frames", static_cast<std::size_t>(count));
+    std::vector<std::string> stats;
+    std::optional<RecordedTime> steps;
+    for (int frame = shot.frames.first; frame <= shot.frames.last; ++frame) {
+        const Look look = look_of(shot, options, field, frame);
+        const int times = frame == shot.frames.first ? options.warm + 1 : 1;
+        for (int i = 0; i < times; ++i) {
+            simulate(shot, look, screens, field, steps);
+            for (Screen& screen : screens)
+                screen.draw(look);
+        }
+        if (!options.stats.empty())
+            stats.push_back(stats_json(screens.front().drawn().stats(), gpu, render::Access::settings(screens.front().view)));
+        require_silence(messages);
+        for (Screen& screen : screens)
+            if (options.frames)
+                write_picture(screen.drawn(), screen.names.name(frame), screen.options);
+        if (progress)
+            progress->advance();
+    }
+    require_silence(messages);
+    return stats;
 }
 
 /// With --replay and no --frames it is the whole flight.
@@ -185,8 +269,10 @@ Options settled(Options options) {
 
 void run_render(const Options& given) {
     const Options options = settled(given);
-    check_outputs(options);
+    std::vector<Channel> channels = channels_of(options);
     const scene::Scene scene = load_scene(options);
+    for (const Channel& channel : channels)
+        check_not_inputs(options_of(channel, options), scene);
     check_not_inputs(options, scene);
     check_tracks(options, scene);
     Shot shot = plan_shot(options, scene);
@@ -199,40 +285,10 @@ void run_render(const Options& given) {
     world.far = options.frame.far;
     settle(shot, options, world);
     Field field = render::Access::field_of(std::move(world));
-    View view(field);
-
+    std::vector<Screen> screens = screens_of(options, std::move(channels), field);
     take_tracks(options, field);
-
-    const OutputNames names(options);
-    const std::string gpu = gl::context_info().renderer;
-    const int count = shot.frames.last - shot.frames.first + 1;
-    std::optional<base::Progress> progress;
-    if (count > 1)
-        progress.emplace("frames", static_cast<std::size_t>(count));
-    render::FrameSettings& settings = render::Access::settings(view);
-    settings = options.frame;
-    settings.aov = !options.aovs.empty();
-    render::Access::inside(field).wait_in_passes = settings.wait_in_passes;
-    const render::ViewState& drawn = render::Access::state(view);
-    std::vector<std::string> stats;
-    std::optional<RecordedTime> steps;
-    for (int frame = shot.frames.first; frame <= shot.frames.last; ++frame) {
-        const Look look = look_of(shot, options, field, frame);
-        settings.lod_eye = look.lod_eye;
-        const int times = frame == shot.frames.first ? options.warm + 1 : 1;
-        for (int i = 0; i < times; ++i) {
-            simulate(shot, look, field, render::limits_of(settings), steps);
-            view.draw(look.camera, {settings.width, settings.height});
-        }
-        if (!options.stats.empty())
-            stats.push_back(stats_json(drawn.stats(), gpu, settings));
-        require_silence(messages);
-        if (options.frames)
-            write_picture(drawn, names.name(frame), options);
-        if (progress)
-            progress->advance();
-    }
-    require_silence(messages);
+    render::Access::inside(field).wait_in_passes = options.frame.wait_in_passes;
+    const std::vector<std::string> stats = draw_all(shot, options, field, screens, messages);
     if (!options.save_tracks.empty()) {
         make_parent(options.save_tracks);
         write_linear(options.save_tracks, render::Access::state(field).tracks->picture());
@@ -240,7 +296,8 @@ void run_render(const Options& given) {
     if (options.frames)
         write_sequence_stats(options, stats);
     else
-        write_one(options, drawn, stats);
+        for (Screen& screen : screens)
+            write_one(screen.options, screen.drawn(), stats);
 }
 
 } // namespace sward::app

@@ -5,10 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "app/channels.h"
 #include "app/commands.h"
 #include "app/devices.h"
 #include "app/drive_source.h"
 #include "app/flight.h"
+#include "app/fly_source.h"
 #include "app/io.h"
 #include "app/joystick_list.h"
 #include "app/load_screen.h"
@@ -32,7 +34,9 @@ scene::Scene first_scene(const Options& options) {
     return open_scene(options.scene.empty() ? default_scene() : options.scene);
 }
 
-WindowPlace place_of(const Options& options) {
+WindowPlace place_of(const Options& options, const std::vector<Channel>& channels) {
+    if (const glm::ivec2 all = extent_of(channels); !channels.empty())
+        return {all.x, all.y, {}};
     return options.window.value_or(WindowPlace{options.frame.width, options.frame.height, {}});
 }
 
@@ -64,8 +68,9 @@ private:
 class Viewer {
 public:
     explicit Viewer(const Options& options)
-        : options_(options), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
-          window_("Sward", place_of(options), options.debug_gl), panel_(window_.handle()) {
+        : options_(options),
+          channels_(options.channels.empty() ? std::vector<Channel>{} : read_channels(options.channels)), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
+          window_("Sward", place_of(options, channels_), options.debug_gl), panel_(window_.handle()) {
         gl::require_gl45();
         window_.use_devices(std::move(devices_));
     }
@@ -118,13 +123,14 @@ private:
         scene::settle_place(start, on_earth, "--camera");
         const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg : SunDay::kUsualLatitude_deg;
         const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, {links_, on_earth, links_.out ? grass_share_of(world) : GrassShare()});
+        source->add_objects(world);
         Field field = build(std::move(world), screen);
         if (options_.exit_after == 0)
             note_recent(recent_file(), scene.file);
         std::optional<RecordWriter> writer;
         if (!options_.record.empty())
             writer.emplace(options_.record, scene.file.string(), options_.time_s);
-        Flight flight({options_, scene, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
+        Flight flight({options_, scene, channels_, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
         return flight.run();
     }
 
@@ -137,6 +143,7 @@ private:
     }
 
     const Options& options_;
+    std::vector<Channel> channels_;
     std::optional<FlightRecord> record_; ///< --replay
     // Before the window: a port in use or a wrong file is told of first.
     FeedLinks links_;
@@ -154,6 +161,8 @@ void run_view(const Options& options) {
     static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
     if (!options.drive.empty())
         static_cast<void>(find_vehicle(options.drive)); // likewise
+    if (!options.fly.empty())
+        static_cast<void>(find_aircraft(options.fly));
     gl::DebugMessages messages;
     Viewer viewer(options);
     if (options.debug_gl)

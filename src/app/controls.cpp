@@ -22,7 +22,7 @@ constexpr double kLongestStep = 0.25;  // s: a stopped process that continues mu
 
 void FlyControls::step(scene::Pose& pose, const Input& input, double dt_s) {
     const double dt = std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kLongestStep) : 0.0;
-    speed_ms_ = std::clamp(speed_ms_ * std::pow(kWheelFactor, std::clamp(input.wheel, -20.0, 20.0)),
+    speed_mps_ = std::clamp(speed_mps_ * std::pow(kWheelFactor, std::clamp(input.wheel, -20.0, 20.0)),
                            kLeastSpeed, kMostSpeed);
     const double turn = kStickDegrees * dt;
     const double yaw = pose.yaw_deg + input.look_px.x * kMouseDegrees + input.look_rate.x * turn;
@@ -40,7 +40,7 @@ void FlyControls::step(scene::Pose& pose, const Input& input, double dt_s) {
     const glm::dvec3 forward{sin_yaw * cos_pitch, sin_pitch, -cos_yaw * cos_pitch};
     const glm::dvec3 way =
         right * input.move.x + glm::dvec3(0, 1, 0) * input.move.y + forward * input.move.z;
-    pose.position += way * (speed_ms_ * (input.fast ? kFastFactor : 1) * dt);
+    pose.position += way * (speed_mps_ * (input.fast ? kFastFactor : 1) * dt);
 }
 
 void keep_above_ground(scene::Pose& pose, double ground_m) {

@@ -11,10 +11,10 @@ class FlyControls {
 public:
     /// Moves `pose` (above the datum) by what the input asks for in `dt_s` seconds.
     void step(scene::Pose& pose, const Input& input, double dt_s);
-    [[nodiscard]] double speed_ms() const { return speed_ms_; }
+    [[nodiscard]] double speed_mps() const { return speed_mps_; }
 
 private:
-    double speed_ms_ = 5;
+    double speed_mps_ = 5;
 };
 
 /// Lifts a pose that would be in the ground to the least height of an eye above it.

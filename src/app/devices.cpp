@@ -15,13 +15,13 @@ namespace {
 constexpr std::string_view kHandBrake = "hand_brake";
 constexpr int kCameras = 9;
 
-constexpr std::array<std::pair<std::string_view, Action>, 23> kNames = {{
+constexpr std::array<std::pair<std::string_view, Action>, 25> kNames = {{
     {"pause", Action::kPause}, {"step", Action::kStep}, {"slower", Action::kSlower}, {"faster", Action::kFaster}, {"real_time", Action::kRealTime},
     {"earlier", Action::kEarlier}, {"later", Action::kLater}, {"more_wind", Action::kMoreWind}, {"less_wind", Action::kLessWind},
     {"wind_left", Action::kWindLeft}, {"wind_right", Action::kWindRight}, {"next_camera", Action::kDriveCamera}, {"help", Action::kHelp},
     {"line", Action::kLine}, {"panel", Action::kPanel}, {"recent", Action::kRecent}, {"full_screen", Action::kFullScreen},
     {"screenshot", Action::kScreenshot}, {"sequence", Action::kSequence}, {"pose", Action::kPose}, {"flow", Action::kFlow}, {"reload", Action::kReload},
-    {"quit", Action::kQuit},
+    {"more_throttle", Action::kMoreThrottle}, {"less_throttle", Action::kLessThrottle}, {"quit", Action::kQuit},
 }};
 
 } // namespace

@@ -8,35 +8,25 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
-#include "app/parse.h"
+#include "app/model_files.h"
 #include "app/paths.h"
+#include "app/turn_angles.h"
 #include "drive/vehicle.h"
+#include "drive/vehicle_mesh.h"
+#include "render/world.h"
 
 namespace sward::app {
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kDegree = glm::pi<double>() / 180;
 constexpr double kMouseDegrees = 0.12;                   // a pixel
 constexpr double kChaseBack_m = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
 constexpr double kChaseFollow_per_s = 4;                 // how fast the chase camera comes round
 constexpr double kChasePitch_deg = -9;
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
 constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
-
-struct Angles {
-    double yaw = 0, pitch = 0, roll = 0; // degrees
-};
-
-/// Of a frame (x right, y up, z behind), as camera_of() turns.
-Angles angles_of(const glm::dquat& turn) {
-    const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0), up = turn * glm::dvec3(0, 1, 0);
-    return {std::atan2(ahead.x, -ahead.z) / kDegree, std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree, std::atan2(-right.y, up.y) / kDegree};
-}
 
 /// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A brake pedal brakes and does not drive back.
 drive::Pedals pedals_of(const Input& asked) {
@@ -92,6 +82,31 @@ public:
         return balls;
     }
 
+    void add_objects(render::World& world) override {
+        first_ = world.scene.objects.size();
+        const glm::dvec3 paint(0.32, 0.03, 0.03), roof(0.05), rubber(0.03);
+        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) { add_model_mesh(world, name, mesh, colour); };
+        add("vehicle/body", drive::body_mesh(spec_), paint);
+        add("vehicle/roof", drive::roof_mesh(spec_), roof);
+        for (std::size_t i = 0; i < 4; ++i)
+            add(i < 2 ? "vehicle/front wheel" : "vehicle/rear wheel", drive::wheel_mesh(spec_.axles[i / 2]), rubber);
+    }
+
+    [[nodiscard]] std::vector<Body> objects() const override {
+        std::vector<Body> bodies;
+        if (!vehicle_)
+            return bodies;
+        const auto add = [&](const glm::dvec3& at, const glm::dquat& turn) {
+            bodies.push_back({first_ + bodies.size(), glm::translate(glm::dmat4(1), at) * glm::mat4_cast(turn)});
+        };
+        const drive::VehicleState state = vehicle_->state();
+        add(state.position, state.turn);
+        add(state.position, state.turn);
+        for (const drive::WheelState& wheel : state.wheels)
+            add(wheel.hub, wheel.turn);
+        return bodies;
+    }
+
 private:
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const drive::VehicleState state = vehicle_->state();
@@ -121,6 +136,7 @@ private:
     std::optional<drive::Vehicle> vehicle_;
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0;
+    std::size_t first_ = 0;          ///< of its objects in the scene
     glm::dvec2 look_{0, 0};          ///< aside of the camera, degrees
     double chase_yaw_ = 0;
 };
@@ -128,18 +144,7 @@ private:
 } // namespace
 
 drive::VehicleSpec find_vehicle(const std::string& name) {
-    std::error_code ignored;
-    const fs::path shipped = vehicles_directory() / (name + ".toml");
-    if (name.find('/') == std::string::npos && fs::exists(shipped, ignored))
-        return drive::load_vehicle(shipped);
-    if (fs::exists(name, ignored))
-        return drive::load_vehicle(name);
-    std::vector<std::string> known;
-    for (const auto& entry : fs::directory_iterator(vehicles_directory(), ignored))
-        if (entry.path().extension() == ".toml")
-            known.push_back(entry.path().stem().string());
-    std::ranges::sort(known);
-    throw option_error("--drive", name, fmt::format("a vehicle's file, or one that ships: {}", fmt::join(known, ", ")));
+    return drive::load_vehicle(find_model("--drive", vehicles_directory(), name));
 }
 
 std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface) {

@@ -119,6 +119,8 @@ public:
     }
     [[nodiscard]] bool in_real_time() const override { return source_->in_real_time(); }
     [[nodiscard]] std::vector<Ball> bodies() const override { return source_->bodies(); }
+    void add_objects(render::World& world) override { source_->add_objects(world); }
+    [[nodiscard]] std::vector<Body> objects() const override { return source_->objects(); }
     [[nodiscard]] std::string note() const override { return source_->note(); }
 
 private:

@@ -5,17 +5,13 @@
 #include <cmath>
 #include <cstdio>
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
-#include <imgui.h>
 
-#include "app/load_screen.h"
 #include "app/paths.h"
 #include "app/recent_scenes.h"
 #include "app/view_scene.h"
 #include "base/error.h"
 #include "base/log.h"
-#include "gl/breath.h"
 #include "gl/context.h"
 #include "render/access.h"
 #include "render/renderer.h"
@@ -23,18 +19,7 @@
 namespace sward::app {
 namespace {
 
-constexpr int kMostWindSteps = 4;       // of the local window in a frame: a slow GPU slows the wind, not the flight
-constexpr int kMostPhysicsSteps = 4;    // likewise of the blades
-constexpr double kStatsEvery_s = 0.25;  // reading counters waits for the GPU
-constexpr int kLargestSide = 16384;
 constexpr double kSpeedFade_s = 0.2;    // of the speed that is shown
-constexpr double kWord_s = 4;
-constexpr double kLong_s = 0.3;         // a picture that takes longer is worth a word, and may be ended
-constexpr GLuint64 kWait_ns = 30'000'000;
-
-double seconds_since(std::chrono::steady_clock::time_point then) {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
-}
 
 /// Of the scene and its pose: `sward view` then names both in its messages.
 std::vector<std::string> camera_names(const scene::Scene& scene) {
@@ -52,10 +37,12 @@ bool same(const MeanWind& a, const MeanWind& b) {
 
 Flight::Flight(const FlightParts& parts)
     : parts_(parts), options_(parts.options), window_(parts.window), panel_(parts.panel), field_(parts.field), source_(parts.source),
-      clock_(parts.replay != nullptr ? std::max(options_.time_s, parts.replay->start_s) : options_.time_s, options_.step_s, options_.fixed_step ? std::optional(options_.step_s) : std::nullopt), view_(field_),
+      clock_(parts.replay != nullptr ? std::max(options_.time_s, parts.replay->start_s) : options_.time_s, options_.step_s, options_.fixed_step ? std::optional(options_.step_s) : std::nullopt),
       arrows_(parts.scene.wind.arrows, parts.scene.file), weather_(parts.scene, parts.latitude_deg), settings_(options_.frame),
       pose_{above_datum(parts.start)}, gpu_(gl::context_info().renderer), cameras_(camera_names(parts.scene)),
       recent_(read_recent(recent_file())), sampler_(options_.time_s), before_(pose_.pose.position), last_(Clock::now()) {
+    for (std::size_t i = 0; i < std::max<std::size_t>(1, parts.channels.size()); ++i)
+        views_.emplace_back(field_);
     say(parts.word);
 }
 
@@ -121,17 +108,22 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
     const glm::dvec3 way = pose_.pose.position - before_;
     before_ = pose_.pose.position;
     if (dt > 0)
-        speed_ms_ += (glm::length(way) / dt - speed_ms_) * std::min(1.0, dt / kSpeedFade_s);
+        speed_mps_ += (glm::length(way) / dt - speed_mps_) * std::min(1.0, dt / kSpeedFade_s);
 }
 
 /// A flight that is kept, or shown again, is simulated by its steps, however many fall into a picture: its pictures are then the same whatever their
 /// rate. Any other one is simulated once a picture, and no more than a slow machine can.
-void Flight::simulate(const glm::dvec3& eye, const Input& input) {
+void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
     if (const std::vector<Ball> bodies = source_.bodies(); !bodies.empty())
         field_.set_colliders(bodies, clock_.time_s());
+    if (const std::vector<Body> objects = source_.objects(); !objects.empty())
+        field_.set_objects(objects, clock_.time_s());
     const SimulationLimits limits = render::limits_of(settings_);
     if (parts_.record == nullptr && parts_.replay == nullptr) {
-        field_.simulate(clock_.time_s(), {&eye, 1}, limits);
+        std::vector<glm::dvec3> eyes;
+        for (const Camera& camera : cameras)
+            eyes.push_back(eye_of(camera));
+        field_.simulate(clock_.time_s(), eyes, limits);
         return;
     }
     if (!steps_)
@@ -152,71 +144,9 @@ void Flight::simulate(const glm::dvec3& eye, const Input& input) {
     }
 }
 
-void Flight::draw(glm::ivec2 size, const Input& input) {
-    settings_.width = std::min(size.x, kLargestSide);
-    settings_.height = std::min(size.y, kLargestSide);
-    settings_.most_wind_steps = options_.fixed_step ? 0 : kMostWindSteps;
-    settings_.most_physics_steps = options_.fixed_step ? 0 : kMostPhysicsSteps;
-    const Camera camera = camera_of(pose_, settings_.width, settings_.height);
-    const glm::dvec3 eye = eye_of(camera);
-    drawing_ = Clock::now();
-    {
-        const gl::BreathScope breath([this] { take_breath(); });
-        simulate(eye, input);
-        render::Access::settings(view_) = settings_;
-        // A window larger than any picture keeps a rim.
-        view_.draw(camera, {settings_.width, settings_.height, 0, 0, std::max(0, size.y - settings_.height)});
-    }
-    window_.set_title("Sward - " + scene_title(parts_.scene));
-    if (seconds_since(counted_) > kStatsEvery_s) {
-        stats_ = render::Access::state(view_).stats();
-        counted_ = Clock::now();
-    }
-}
-
-/// Between the passes of a picture: the window is heard, and if the picture takes long it says so and may be ended.
-void Flight::take_breath() {
-    window_.listen();
-    if (seconds_since(drawing_) < kLong_s)
-        return;
-    // The passes so far, waited for in pieces: else the last one would wait for all of them, deaf.
-    const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
-    while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kWait_ns) == GL_TIMEOUT_EXPIRED) {
-        window_.listen();
-        if (window_.asked_to_end())
-            break;
-    }
-    glDeleteSync(fence);
-    if (window_.asked_to_end())
-        throw Stopped{};
-    window_.set_title(fmt::format("Sward - drawing for {:.0f} s, Esc ends", std::ceil(seconds_since(drawing_))));
-}
-
-void Flight::present() {
-    Weather wanted = weather_;
-    PanelEdits edits{settings_, clock_, wanted};
-    panel_.begin();
-    draw_overlays();
-    panel_.draw(edits, {stats_, pose_.pose, ground(), source_.note(), frame_ms_, gpu_, cameras_});
-    if (line_)
-        Panel::draw_line(line());
-    panel_.draw_help();
-    const auto chosen = panel_.draw_recent(recent_);
-    Panel::draw_messages(messages_);
-    if (seconds_since(said_) < kWord_s)
-        Panel::draw_word(word_);
-    panel_.end();
-    window_.swap();
-    set_weather(wanted);
-    if (edits.camera)
-        go_to_camera(*edits.camera);
-    if (chosen)
-        consider(*chosen);
-}
-
 std::string Flight::line() const {
     CockpitFacts facts;
-    facts.speed_ms = speed_ms_;
+    facts.speed_mps = speed_mps_;
     facts.above_ground_m = pose_.pose.position.y - ground();
     facts.heading_deg = pose_.pose.yaw_deg;
     facts.p50_ms = times_.percentile(0.5);
@@ -230,15 +160,6 @@ std::string Flight::line() const {
     facts.rate = clock_.rate();
     facts.note = source_.note();
     return cockpit_line(facts);
-}
-
-void Flight::draw_overlays() {
-    const ImVec2 size = ImGui::GetIO().DisplaySize;
-    const Eye eye(pose_.pose, {size.x, size.y});
-    if (flow_)
-        draw_flow(eye, land_, clock_.time_s());
-    if (arrows_.draw(eye, land_, clock_.time_s()))
-        render::Access::state(field_).sources().set_arrows(arrows_.arrows());
 }
 
 void Flight::act(const Press& press) {
@@ -260,6 +181,8 @@ void Flight::act(const Press& press) {
 }
 
 void Flight::act_on_view(const Press& press) {
+    if (!parts_.channels.empty() && (press.action == Action::kFlow || press.action == Action::kArrows))
+        return say("the wind is not drawn over channels");
     switch (press.action) {
     case Action::kFlow: flow_ = !flow_; break;
     case Action::kArrows: arrows_.shown = !arrows_.shown; break;
@@ -309,8 +232,10 @@ void Flight::print_pose() const {
 /// A full disk costs the picture, not the flight.
 void Flight::take_screenshot() {
     try {
-        say("screenshot: " + capture_screenshot(render::Access::state(view_)).string());
-        base::log_info(word_);
+        for (View& view : views_) {
+            say("screenshot: " + capture_screenshot(render::Access::state(view)).string());
+            base::log_info(word_);
+        }
     } catch (const base::Error& error) {
         base::log_error(error.what());
         say(error.what());
@@ -335,7 +260,8 @@ void Flight::toggle_sequence() {
 
 void Flight::add_to_sequence() {
     try {
-        sequence_->add(render::Access::state(view_));
+        for (View& view : views_)
+            sequence_->add(render::Access::state(view));
     } catch (const base::Error& error) { // what is there stays
         base::log_error(error.what());
         say(error.what());
@@ -346,7 +272,8 @@ void Flight::add_to_sequence() {
 void Flight::reload() {
     messages_.clear();
     render::Access::state(field_).reload(messages_);
-    render::Access::state(view_).reload(messages_);
+    for (View& view : views_)
+        render::Access::state(view).reload(messages_);
     for (const std::string& message : messages_)
         base::log_warning(message);
     if (messages_.empty()) {

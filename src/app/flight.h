@@ -9,6 +9,7 @@
 
 #include "app/arrow_panel.h"
 #include "app/capture.h"
+#include "app/channels.h"
 #include "app/cockpit_line.h"
 #include "app/flight_record.h"
 #include "app/frame_times.h"
@@ -23,10 +24,15 @@
 
 namespace sward::app {
 
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point then) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
 /// What a flight is made of; all of it outlives the flight.
 struct FlightParts {
     const Options& options;
     const scene::Scene& scene;
+    const std::vector<Channel>& channels; ///< pictures of every moment; none: one that fills the window
     scene::Pose start;
     double latitude_deg = SunDay::kUsualLatitude_deg;
     Window& window;
@@ -55,7 +61,9 @@ private:
     void advance(const Input& input, double elapsed_s);
     void measure_speed(const SimClock::Tick& tick);
     void draw(glm::ivec2 size, const Input& input);
-    void simulate(const glm::dvec3& eye, const Input& input);
+    [[nodiscard]] std::vector<Camera> cameras(glm::ivec2 size) const;
+    void draw_views(const std::vector<Camera>& cameras, glm::ivec2 size);
+    void simulate(const std::vector<Camera>& cameras, const Input& input);
     void take_breath();
     void present();
     void draw_overlays();
@@ -81,7 +89,7 @@ private:
     SimClock clock_;
     const Land land_{[this](double x, double z) { return field_.ground_height(x, z); },
                      [this](double x, double z) { return field_.wind_at(x, z, clock_.time_s()); }};
-    View view_;
+    std::vector<View> views_; ///< one a channel, or one
     ArrowPanel arrows_;
     Weather weather_;
     render::FrameSettings settings_;
@@ -97,7 +105,7 @@ private:
     std::optional<scene::Scene> next_;
     std::string word_;
     bool flow_ = false, line_ = true;
-    double speed_ms_ = 0, frame_ms_ = 0;
+    double speed_mps_ = 0, frame_ms_ = 0;
     glm::dvec3 before_{0};    ///< where the eye was in the picture before
     Clock::time_point last_, drawing_, counted_{}, said_;
 };

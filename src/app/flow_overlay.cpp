@@ -19,14 +19,14 @@ constexpr int kSide = 24;            // streaks a side of a ring's square
 constexpr int kSteps = 10;           // of a streak
 constexpr double kCalmStreak = 0.7, kStreak = 1.8; // its length when calm, what 10 m/s add; in spacings
 constexpr double kAbove_m = 0.35;    // over the ground: about the tips of the blades
-constexpr double kFullScale_ms = 20; // the colour scale's end
+constexpr double kFullScale_mps = 20; // the colour scale's end
 constexpr double kPeriod_s = 1.4;    // from one pulse along a streak to the next
 
 /// Calm to strong: blue, cyan, yellow, red; as bright as a screen in the sun needs.
-ImU32 colour_of(double speed_ms, double alpha) {
+ImU32 colour_of(double speed_mps, double alpha) {
     static constexpr std::array<glm::dvec3, 5> kScale = {
         {{0.25, 0.45, 1.0}, {0.2, 0.9, 1.0}, {1.0, 1.0, 0.45}, {1.0, 0.6, 0.1}, {1.0, 0.15, 0.1}}};
-    const double at = std::clamp(speed_ms / kFullScale_ms, 0.0, 1.0) * (kScale.size() - 1);
+    const double at = std::clamp(speed_mps / kFullScale_mps, 0.0, 1.0) * (kScale.size() - 1);
     const auto i = std::min(static_cast<std::size_t>(at), kScale.size() - 2);
     const glm::dvec3 c = glm::mix(kScale[i], kScale[i + 1], at - static_cast<double>(i));
     return ImGui::ColorConvertFloat4ToU32(
@@ -36,8 +36,8 @@ ImU32 colour_of(double speed_ms, double alpha) {
 /// One streak: a path through the present land from `start` on, with pulses that run along it.
 void draw_streak(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 start, double spacing_m, double phase) {
     glm::dvec2 at = start;
-    const double first_ms = glm::length(land.wind(at.x, at.y));
-    const double length_m = spacing_m * (kCalmStreak + kStreak * std::min(first_ms / 10, 2.0));
+    const double first_mps = glm::length(land.wind(at.x, at.y));
+    const double length_m = spacing_m * (kCalmStreak + kStreak * std::min(first_mps / 10, 2.0));
     std::optional<glm::dvec2> before;
     for (int step = 0; step <= kSteps; ++step) {
         const glm::dvec2 wind = land.wind(at.x, at.y);
@@ -64,10 +64,10 @@ void draw_scale(ImDrawList& list) {
     for (int i = 0; i < kPieces; ++i) {
         const float x = corner.x + kWidth * static_cast<float>(i) / kPieces;
         list.AddRectFilled({x, corner.y}, {x + kWidth / kPieces + 0.5f, corner.y + kHeight},
-                           colour_of(kFullScale_ms * (i + 0.5) / kPieces, 1));
+                           colour_of(kFullScale_mps * (i + 0.5) / kPieces, 1));
     }
     for (int mark = 0; mark <= 4; ++mark) {
-        const std::string text = fmt::format("{:.0f}", kFullScale_ms * mark / 4);
+        const std::string text = fmt::format("{:.0f}", kFullScale_mps * mark / 4);
         const float x = corner.x + kWidth * static_cast<float>(mark) / 4 - ImGui::CalcTextSize(text.c_str()).x / 2;
         list.AddText({x, corner.y + kHeight + 3}, IM_COL32_WHITE, text.c_str());
     }

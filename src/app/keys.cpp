@@ -24,7 +24,9 @@ constexpr std::array kBindings = {
     KeyBinding{Action::kWindLeft, key::kHome, "Home", "wind from 10 degrees further left", 0, 1, true},
     KeyBinding{Action::kWindRight, key::kEnd, "End", "wind from 10 degrees further right", 0, 1, true},
     KeyBinding{Action::kCamera, '1', "1-9", "the scene's cameras, in the order of their names", 0, 9},
-    KeyBinding{Action::kDriveCamera, 'C', "C", "driving: the next camera of driver, chase, wheel"},
+    KeyBinding{Action::kDriveCamera, 'C', "C", "driving, flying: the next camera of driver or pilot, chase, wheel"},
+    KeyBinding{Action::kMoreThrottle, 'U', "U", "flying: a twentieth more throttle", 0, 1, true},
+    KeyBinding{Action::kLessThrottle, 'J', "J", "flying: a twentieth less", 0, 1, true},
     KeyBinding{Action::kRecent, 'O', "O", "recent scenes"},
     KeyBinding{Action::kFullScreen, key::kF11, "F11", "full screen, or the window again"},
     KeyBinding{Action::kScreenshot, key::kF12, "F12", "screenshot: sward-NNNN in the working directory"},
@@ -40,9 +42,10 @@ constexpr std::array kBindings = {
     KeyBinding{Action::kUndo, 'Z', "Ctrl+Z", "editor: undo", 0, 1, true, true},
 };
 
-constexpr std::array<std::string_view, 6> kMotion = {
+constexpr std::array<std::string_view, 7> kMotion = {
     "W A S D    fly, sideways       Q E    down, up",
     "driving    W S drive, brake and back, A D steer, E hand brake",
+    "flying     W S nose down, up, A D bank, Q E left, right pedal",
     "right mouse button    look",
     "wheel    speed       shift    eight times as fast",
     "gamepad    left stick fly, right stick look, triggers down and up,",

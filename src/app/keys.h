@@ -21,7 +21,7 @@ inline constexpr int kLeftShift = 340, kLeftControl = 341, kRightShift = 344, kR
 /// What a press asks for, once.
 enum class Action {
     kFlow, kArrows, kHelp, kLine, kPose, kDriveCamera, kRecent, kPause, kReload, kPanel, kSequence, kCamera, kStep, kSlower, kFaster, kRealTime,
-    kEarlier, kLater, kMoreWind, kLessWind, kWindLeft, kWindRight, kFullScreen, kScreenshot, kQuit, kDelete, kRedo, kSave, kUndo
+    kEarlier, kLater, kMoreWind, kLessWind, kWindLeft, kWindRight, kMoreThrottle, kLessThrottle, kFullScreen, kScreenshot, kQuit, kDelete, kRedo, kSave, kUndo
 };
 
 struct KeyBinding {

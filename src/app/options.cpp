@@ -196,6 +196,8 @@ void declare_render(CLI::App& app, Options* o) {
     declare_path(app, "--replay", "FILE", "the camera, the sun and the wind of a flight that `sward view --record` wrote; without --frames the whole of it",
                  &o->replay);
     app.get_option("--replay")->excludes("--camera")->excludes("--path")->excludes("--camera-matrices");
+    declare_path(app, "--channels", "FILE", "several pictures of every moment, as FILE lists them: OUT-NAME.png for each", &o->channels);
+    app.get_option("--channels")->excludes("--size")->excludes("--stats")->excludes("--format");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
@@ -240,11 +242,18 @@ void declare_view(CLI::App& app, Options* o) {
     declare_path(app, "--record", "FILE", "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
     declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
     app.get_option("--replay")->excludes("--record")->excludes("--camera")->excludes("--native-fdm");
+    declare_path(app, "--channels", "FILE", "several pictures of every moment in one window, as FILE lists them", &o->channels);
+    app.get_option("--channels")->excludes("--size")->excludes("--window");
     declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it", [=](const std::string& text) {
         if (text.empty() || text.find('\0') != std::string::npos)
             throw option_error("--drive", text, "car, tractor or a vehicle's file");
         o->drive = text;
     })->excludes("--replay")->excludes("--native-fdm");
+    declare(app, "--fly", "AIRCRAFT", "trainer or an aircraft's file: the keyboard flies it", [=](const std::string& text) {
+        if (text.empty() || text.find('\0') != std::string::npos)
+            throw option_error("--fly", text, "trainer or an aircraft's file");
+        o->fly = text;
+    })->excludes("--replay")->excludes("--native-fdm")->excludes("--drive");
     declare(app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
             [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
         ->needs("--drive");

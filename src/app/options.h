@@ -55,6 +55,7 @@ struct Options {
     std::optional<scene::Pose> lod_eye;
     std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
+    std::filesystem::path channels;    ///< several pictures of every moment; view too. Empty: one
     std::filesystem::path replay;      ///< a record that the eye and the weather follow; view too. Empty: none
     bool raw = false;                  ///< --format rgb24: bytes of the display pictures on stdout
     std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
@@ -76,6 +77,7 @@ struct Options {
     bool list_joysticks = false;              ///< in the place of a window
     std::filesystem::path record; ///< written as the flight goes on; empty: none
     std::string drive;            ///< a vehicle that ships, or its file; empty: the free camera
+    std::string fly;              ///< likewise an aircraft
     drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
     std::optional<WindowPlace> window; ///< none: of `frame`'s size
     int exit_after = 0; ///< frames; 0: until it is closed

@@ -46,6 +46,10 @@ fs::path vehicles_directory() {
     return data_directory() / "vehicles";
 }
 
+fs::path aircraft_directory() {
+    return data_directory() / "aircraft";
+}
+
 fs::path texgen_program() {
     return base::executable_directory() / "texgen";
 }

@@ -15,6 +15,8 @@ namespace sward::app {
 [[nodiscard]] std::filesystem::path presets_directory();
 /// The vehicles that ship.
 [[nodiscard]] std::filesystem::path vehicles_directory();
+/// The aircraft that ship.
+[[nodiscard]] std::filesystem::path aircraft_directory();
 /// The generator that bakes them: it stands beside sward.
 [[nodiscard]] std::filesystem::path texgen_program();
 /// $XDG_CACHE_HOME/sward/sets, by default ~/.cache/sward/sets. Throws Error(kIo) where there is

@@ -6,6 +6,7 @@
 #include "app/controls.h"
 #include "app/drive_source.h"
 #include "app/feed_source.h"
+#include "app/fly_source.h"
 
 namespace sward::app {
 namespace {
@@ -19,7 +20,7 @@ public:
         pose.roll_deg = 0;
     }
     [[nodiscard]] bool in_real_time() const override { return true; }
-    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_ms()); }
+    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_mps()); }
 
 private:
     FlyControls controls_;
@@ -33,6 +34,8 @@ std::unique_ptr<PoseSource> make_pose_source(const Options& options, const Sourc
         source = make_feed_source(parts.links.in, parts.on_earth);
     else if (!options.drive.empty())
         source = make_drive_source(find_vehicle(options.drive), options.tyres);
+    else if (!options.fly.empty())
+        source = make_fly_source(find_aircraft(options.fly));
     else
         source = std::make_unique<FreeFlight>();
     if (parts.links.out)

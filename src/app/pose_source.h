@@ -13,6 +13,10 @@
 #include "scene/scene.h"
 #include "sward/field.h"
 
+namespace sward::render {
+struct World;
+} // namespace sward::render
+
 namespace sward::app {
 
 /// What a pose source is told once a picture.
@@ -34,6 +38,10 @@ public:
     [[nodiscard]] virtual bool in_real_time() const { return false; }
     /// What pushes the grass aside as it moves, where it stands now; of the same number from picture to picture. None: nothing.
     [[nodiscard]] virtual std::vector<Ball> bodies() const { return {}; }
+    /// Adds what it shows of itself to a scene, before a field is made of it.
+    virtual void add_objects(render::World&) {}
+    /// Where those stand now.
+    [[nodiscard]] virtual std::vector<Body> objects() const { return {}; }
     /// A few words for the line on the picture ("set 5 m/s", "stream stands since 3 s"); empty: none.
     [[nodiscard]] virtual std::string note() const { return {}; }
 };

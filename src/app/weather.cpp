@@ -14,7 +14,7 @@ double wrapped(double value, double whole) {
 } // namespace
 
 Weather::Weather(const scene::Scene& scene, double latitude_deg)
-    : day(scene.sun, latitude_deg), hour(day.hour()), wind{scene.wind.speed_ms, scene.wind.direction_deg, scene.wind.gust} {}
+    : day(scene.sun, latitude_deg), hour(day.hour()), wind{scene.wind.speed_mps, scene.wind.direction_deg, scene.wind.gust} {}
 
 Sun Weather::sun() const {
     const scene::SunSpec at = day.at(hour);

@@ -13,6 +13,7 @@
 #include "assets/limits.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/held_warnings.h"
 #include "base/log.h"
 #include "base/room.h"
 
@@ -140,6 +141,7 @@ scene::Heightfield from_named_kind(const scene::TerrainSpec& spec, const std::st
 
 scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
     const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    const base::HeldWarnings held;
     const fs::path& path = spec.elevation;
     const std::string normal = fs::absolute(path).lexically_normal().string();
     if (normal.starts_with("/vsi"))

@@ -72,7 +72,11 @@ GdalScope::~GdalScope() {
 
 std::string GdalScope::error(const char* otherwise) {
     base::refuse_if_starved();
-    return std::exchange(error_, {}).value_or(otherwise);
+    std::string message = std::exchange(error_, {}).value_or(otherwise);
+    // Its messages name the file, some twice, and ours name it too: a long path would push out what they say.
+    for (std::size_t at = 0; !opened_.empty() && (at = message.find(opened_, at)) != std::string::npos;)
+        message.erase(at, std::min(message.find_first_not_of(": ", at + opened_.size()), message.size()) - at);
+    return message.empty() ? otherwise : message;
 }
 
 Dataset GdalScope::open_features(const std::filesystem::path& path, const char* const* drivers) {
@@ -86,6 +90,7 @@ Dataset GdalScope::open(const std::filesystem::path& path, const char* const* dr
         if (const auto side = std::filesystem::path(absolute).replace_extension(extension);
             std::filesystem::exists(side))
             static_cast<void>(base::read_text(side, kMostCrsBytes));
+    opened_ = absolute;
     return Dataset(GDALOpenEx(absolute.c_str(),
                               GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers,
                               nullptr, nullptr));

@@ -42,6 +42,7 @@ public:
 
 private:
     std::optional<std::string> error_;
+    std::string opened_; ///< the path that GDAL was given last, which its messages begin with
 };
 
 /// Band `number` of a raster, from 1; 0: the first, with a warning where others beside it are no alpha (`what` it is then). Throws

@@ -12,6 +12,7 @@
 #include "assets/land_mask.h"
 #include "assets/mask_warp.h"
 #include "base/error.h"
+#include "base/held_warnings.h"
 #include "base/log.h"
 
 namespace sward::assets {
@@ -49,6 +50,7 @@ void check_values(const std::filesystem::path& path, bool by_class, Channel& cha
 
 scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield* ground) {
     const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    const base::HeldWarnings held;
     ChannelRequest request;
     request.palette = spec.classes.empty() ? Palette::kColours : Palette::kIndices;
     request.band = spec.mask_band;

@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <mutex>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/held_warnings.h"
 #include "sward/log.h"
 
 namespace sward::base {
@@ -31,6 +33,7 @@ std::atomic<Verbosity> g_verbosity{Verbosity::kNormal};
 std::mutex g_mutex; // guards stderr, g_bar and g_sink
 LogSink g_sink;     // a host's, or empty
 std::string g_bar;  // the bar that stands on the terminal's last line, or empty
+thread_local HeldWarnings* t_held = nullptr;
 
 /// Plain write(2): no buffer that a crash could lose, no locale.
 void write_stderr(std::string_view text) {
@@ -110,7 +113,24 @@ void log_error(std::string_view message) {
 }
 
 void log_warning(std::string_view message) {
-    write_line(LogLevel::kWarning, "warning: ", message);
+    if (t_held)
+        t_held->add(std::string(message));
+    else
+        write_line(LogLevel::kWarning, "warning: ", message);
+}
+
+HeldWarnings::HeldWarnings() : outer_(std::exchange(t_held, this)), exceptions_(std::uncaught_exceptions()) {}
+
+HeldWarnings::~HeldWarnings() {
+    t_held = outer_;
+    if (std::uncaught_exceptions() > exceptions_)
+        return;
+    for (const std::string& warning : warnings_)
+        log_warning(warning);
+}
+
+void HeldWarnings::add(std::string warning) {
+    warnings_.push_back(std::move(warning));
 }
 
 void log_info(std::string_view message) {

@@ -75,9 +75,9 @@ glm::vec4 step_blade(const shared::BladeStep& rules, const shared::BladeBody& bo
     return {v2 - body.calm2, shared::remember_push(rules, body, v2 - moved, eta)};
 }
 
-MeanTip mean_tip(const grass::GrassSet& set, double speed_ms, double response, int sample) {
+MeanTip mean_tip(const grass::GrassSet& set, double speed_mps, double response, int sample) {
     const auto blades = sample_of(set, sample);
-    const auto speed = static_cast<float>(speed_ms);
+    const auto speed = static_cast<float>(speed_mps);
     return {simulated_tip(blades, set.canopy_m, speed), warped_tip(blades, set.canopy_m, speed, static_cast<float>(response))};
 }
 

@@ -29,6 +29,6 @@ static_assert(sizeof(StepSphere) == 32);
 struct MeanTip {
     glm::dvec2 simulated{0}, warped{0};
 };
-[[nodiscard]] MeanTip mean_tip(const grass::GrassSet& set, double speed_ms, double response, int sample);
+[[nodiscard]] MeanTip mean_tip(const grass::GrassSet& set, double speed_mps, double response, int sample);
 
 } // namespace sward::blades

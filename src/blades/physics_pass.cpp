@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <numeric>
 #include <string>
 
@@ -21,7 +22,7 @@ struct Block {
     shared::BladeStep rules;
     shared::WindField wind;
 };
-static_assert(sizeof(Block) == 64 + 112);
+static_assert(sizeof(Block) == sizeof(shared::BladeStep) + sizeof(shared::WindField));
 
 /// Dispatch of shaders/blades/wake.comp.
 struct Dispatch {
@@ -111,16 +112,15 @@ void PhysicsPass::place(const Pages& pages, double side_m, glm::dvec3 anchor) {
         if (page.used) {
             const auto variant = static_cast<std::size_t>(page.variant);
             const glm::vec2 corner(glm::dvec2(page.tile) * side_m - glm::dvec2(anchor.x, anchor.z));
-            placed[slot] = {glm::vec4(corner, side_m, 0), {static_cast<int>(variant_begin_[variant]),
-                                                     static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0,
-                                                     static_cast<int>(shared::tile_lie(page.tile))}};
+            placed[slot] = {{corner.x, 0, corner.y}, static_cast<float>(side_m), static_cast<int>(variant_begin_[variant]),
+                            static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0, shared::tile_lie(page.tile)};
         }
     }
     place(std::move(placed), pages.fresh());
 }
 
 void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const int> fresh) {
-    const auto same = [](const shared::BladePage& a, const shared::BladePage& b) { return a.place == b.place && a.run == b.run; };
+    const auto same = [](const shared::BladePage& a, const shared::BladePage& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; };
     if (!std::equal(placed.begin(), placed.end(), placed_.begin(), placed_.end(), same)) {
         placed_ = std::move(placed);
         pages_.upload(placed_.data(), placed_.size() * sizeof(shared::BladePage));
@@ -130,7 +130,7 @@ void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const i
         write[static_cast<std::size_t>(slot)] = true;
     }
     for (std::size_t slot = 0; slot < marked_.size(); ++slot) {
-        write[slot] = write[slot] || marked_[slot] != (placed_[slot].run.y > 0);
+        write[slot] = write[slot] || marked_[slot] != (placed_[slot].blades > 0);
     }
     for (std::size_t first = 0, last = 0; first < write.size(); first = last + 1) { // neighbours at once: there may be many
         for (last = first; last < write.size() && write[last]; ++last) {
@@ -145,7 +145,7 @@ void PhysicsPass::mark(std::size_t first, std::size_t last) {
     const auto stride = static_cast<std::size_t>(patches_a_page_);
     std::vector<shared::PatchState> states((last - first) * stride, {{0, 0}, shared::kPatchFree, 0});
     for (std::size_t slot = first; slot < last; ++slot) {
-        const auto filled = static_cast<std::size_t>((placed_[slot].run.y + CULL_GROUP - 1) / CULL_GROUP);
+        const auto filled = static_cast<std::size_t>((placed_[slot].blades + CULL_GROUP - 1) / CULL_GROUP);
         for (std::size_t n = 0; n < filled; ++n) {
             states[(slot - first) * stride + n].status = shared::kPatchNew;
         }
@@ -223,7 +223,7 @@ std::vector<std::uint32_t> PhysicsPass::listed(std::uint32_t list) const {
                 list * static_cast<std::size_t>(patch_count_) * sizeof(shared::AwakePatch));
     std::vector<std::uint32_t> out;
     for (const shared::AwakePatch& entry : entries) {
-        out.push_back(entry.work.x);
+        out.push_back(entry.number);
     }
     return out;
 }

@@ -56,7 +56,7 @@ void LivingBlades::advance(double time_s, const Inputs& inputs) {
     while (done_ < target) {
         ++done_;
         const bool run_up = done_ < lives_from_;
-        rules.time.w = run_up ? 1.0f : 0.0f;
+        rules.run_up = run_up ? 1 : 0;
         const double then_s = static_cast<double>(done_) * settings_.step_s;
         blow(then_s, inputs);
         step(then_s, inputs.colliders.at(then_s, settings_.step_s), rules, inputs);
@@ -65,7 +65,7 @@ void LivingBlades::advance(double time_s, const Inputs& inputs) {
     blow(time_s, inputs);
     if (!set_up) { // no step has looked after blades that begin
         rules = rules_;
-        rules.time.x = 0;
+        rules.step_s = 0;
         step(time_s, {}, rules, inputs);
     }
 }

@@ -60,7 +60,7 @@ public:
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
 protected:
-    /// `canopy_m` and `response` as BladeStep::time takes them.
+    /// `canopy_m` and `response` as BladeStep takes them.
     LivingBlades(Settings settings, double canopy_m, double response);
     [[nodiscard]] virtual bool no_room() const = 0;
     virtual void clear() = 0;

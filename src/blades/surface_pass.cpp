@@ -58,7 +58,6 @@ std::unique_ptr<SurfaceSimulation> SurfacePass::simulation(LivingBlades::Setting
 void SurfacePass::describe(const gl::Program& program, glm::vec3 origin, float thin_out) const {
     program.set("surface_thin_out", thin_out);
     program.set("surface_origin", glm::vec4(origin, canopy_m_));
-    program.set("surface_shape", shape_);
 }
 
 } // namespace sward::blades

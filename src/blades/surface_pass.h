@@ -49,6 +49,7 @@ public:
             const float thin_out = tests.distance ? thin_out_m_ : 0;
             describe(cull_.program(), origin, thin_out);
             describe(draw.program(), origin, thin_out);
+            draw.program().set("surface_shape", shape_); // which the culling has no use for
             draw.program().set("first_cluster", static_cast<int>(page.first_cluster));
             for (std::size_t batch = 0; batch < cull_.batches(); ++batch) {
                 pass("cull blades", [&] { cull_.execute(batch, tests); });

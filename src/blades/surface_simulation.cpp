@@ -150,8 +150,7 @@ void SurfaceSimulation::page(const Inputs& inputs) {
     for (std::size_t slot = 0; slot < placed.size(); ++slot) {
         if (cluster_of_[slot] >= 0) {
             const auto n = static_cast<std::size_t>(cluster_of_[slot]);
-            placed[slot] = {glm::vec4(glm::vec3(-inputs.anchor), 0),
-                            {static_cast<int>(clusters_[n].first), static_cast<int>(clusters_[n].count), buffer_of_[n], 0}};
+            placed[slot] = {glm::vec3(-inputs.anchor), 0, static_cast<int>(clusters_[n].first), static_cast<int>(clusters_[n].count), buffer_of_[n], 0};
             blades_ += clusters_[n].count;
         }
     }

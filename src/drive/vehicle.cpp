@@ -17,11 +17,11 @@ namespace {
 constexpr double kGravity = 9.81, kAir = 1.2;       // m/s2, kg/m3
 constexpr double kFarthest_m = 128;                 // from Bullet's origin: floats are 8 micrometres fine there
 constexpr double kRollInfluence = 0.5;              // of side forces: tyres and springs give, which rays do not
-constexpr double kTurning_ms = 0.5;                 // slower, the pedal that brakes drives the other way
-constexpr double kParking_ms = 2;                   // slower, a driver who does nothing has his foot on the brake
+constexpr double kTurning_mps = 0.5;                 // slower, the pedal that brakes drives the other way
+constexpr double kParking_mps = 2;                   // slower, a driver who does nothing has his foot on the brake
 constexpr double kSteer_per_s = 2.5;                // of the whole lock: hands take their time
-constexpr double kSteerFade_ms = 14;                // at this speed half of the lock is left
-constexpr double kRest_ms = 0.12, kRest_rads = 0.08, kRest_s = 0.4;
+constexpr double kSteerFade_mps = 14;                // at this speed half of the lock is left
+constexpr double kRest_mps = 0.12, kRest_rads = 0.08, kRest_s = 0.4;
 constexpr double kBodySpring = 500, kBodyDamping = 12, kBodyGrip = 0.5; // of a corner on the ground, by mass
 constexpr double kSunk_m = 0.3;                     // a body's middle so deep has gone through
 constexpr double kOverturned_s = 3;
@@ -116,14 +116,14 @@ struct Vehicle::Inside {
 
     /// Engine and brakes.
     void pedal(const Pedals& pedals) {
-        const double speed = now.speed_ms(), drive = std::clamp(pedals.drive, -1.0, 1.0);
-        const bool against = drive * speed < 0 && std::abs(speed) > kTurning_ms;
+        const double speed = now.speed_mps(), drive = std::clamp(pedals.drive, -1.0, 1.0);
+        const bool against = drive * speed < 0 && std::abs(speed) > kTurning_mps;
         const double top = (drive < 0 ? spec.reverse_kmh : spec.top_kmh) / 3.6;
         double pull = against || std::abs(speed) >= top ? 0 : drive * std::min(spec.pull_kn * 1000, spec.power_kw * 1000 / std::max(1.0, std::abs(speed)));
         double brake = spec.brake_kn * 1000 * std::max(against ? std::abs(drive) : 0.0, std::clamp(pedals.brake, 0.0, 1.0));
         if (pedals.brake > 0)
             pull = 0;
-        if (pedals.idle() && std::abs(speed) < kParking_ms)
+        if (pedals.idle() && std::abs(speed) < kParking_mps)
             brake = spec.mass_kg * kGravity; // parked
         double load = 0;
         for (const WheelState& wheel : now.wheels)
@@ -141,7 +141,7 @@ struct Vehicle::Inside {
     }
 
     void steer_towards(double wanted) {
-        const double most = kSteerFade_ms / (kSteerFade_ms + std::abs(now.speed_ms()));
+        const double most = kSteerFade_mps / (kSteerFade_mps + std::abs(now.speed_mps()));
         const double goal = std::clamp(wanted, -1.0, 1.0) * most, change = kSteer_per_s * kStep_s;
         steer += std::clamp(goal - steer, -change, change);
     }
@@ -224,14 +224,14 @@ struct Vehicle::Inside {
         follow_origin();
         rescue();
         note();
-        const bool calm = pedals.drive == 0 && body->getLinearVelocity().length() < static_cast<btScalar>(kRest_ms) &&
+        const bool calm = pedals.drive == 0 && body->getLinearVelocity().length() < static_cast<btScalar>(kRest_mps) &&
                           body->getAngularVelocity().length() < static_cast<btScalar>(kRest_rads);
         rest_s = calm ? rest_s + kStep_s : 0;
         resting = rest_s > kRest_s; // Bullet's tyres creep sideways down a slope; a parked car does not
         if (resting) {
             body->setLinearVelocity({0, 0, 0});
             body->setAngularVelocity({0, 0, 0});
-            now.velocity_ms = {0, 0, 0};
+            now.velocity_mps = {0, 0, 0};
             before = now;
         }
     }
@@ -242,9 +242,14 @@ struct Vehicle::Inside {
         const btQuaternion q = place.getRotation();
         now.turn = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()) * glm::dquat(0, 0, 1, 0)); // half a turn around y
         now.position = middle() + now.turn * glm::dvec3(0, -spec.mass_height_m, 0);
-        now.velocity_ms = of_bullet(body->getLinearVelocity());
+        now.velocity_mps = of_bullet(body->getLinearVelocity());
         for (std::size_t i = 0; i < 4; ++i) {
             const btWheelInfo& wheel = vehicle->getWheelInfo(static_cast<int>(i));
+            // Not by updateWheelTransform(), which forgets what the wheel touches.
+            const btScalar length = wheel.m_raycastInfo.m_suspensionLength;
+            now.wheels[i].hub = origin + of_bullet(place * (wheel.m_chassisConnectionPointCS + wheel.m_wheelDirectionCS * length));
+            now.wheels[i].turn = now.turn * glm::angleAxis(static_cast<double>(wheel.m_steering), glm::dvec3(0, 1, 0)) *
+                                 glm::angleAxis(-static_cast<double>(wheel.m_rotation), glm::dvec3(1, 0, 0));
             now.wheels[i].touches = wheel.m_raycastInfo.m_isInContact;
             now.wheels[i].contact = origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS);
             now.wheels[i].load_n = wheel.m_raycastInfo.m_isInContact ? static_cast<double>(wheel.m_wheelsSuspensionForce) : 0;
@@ -292,7 +297,11 @@ VehicleState Vehicle::state() const {
     VehicleState between = b;
     between.position = a.position + (b.position - a.position) * share;
     between.turn = glm::slerp(a.turn, b.turn, share);
-    between.velocity_ms = a.velocity_ms + (b.velocity_ms - a.velocity_ms) * share;
+    between.velocity_mps = a.velocity_mps + (b.velocity_mps - a.velocity_mps) * share;
+    for (std::size_t i = 0; i < 4; ++i) {
+        between.wheels[i].hub = a.wheels[i].hub + (b.wheels[i].hub - a.wheels[i].hub) * share;
+        between.wheels[i].turn = glm::slerp(a.wheels[i].turn, b.wheels[i].turn, share);
+    }
     return between;
 }
 

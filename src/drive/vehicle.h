@@ -30,15 +30,17 @@ struct WheelState {
     bool touches = false;
     glm::dvec3 contact{0}; ///< on the ground, where it touches
     double load_n = 0;
+    glm::dvec3 hub{0};           ///< its middle
+    glm::dquat turn{1, 0, 0, 0}; ///< of its frame (axle along x) in the world: steered, and rolled on
 };
 
 struct VehicleState {
     glm::dvec3 position{0};      ///< under the centre of mass where the wheels stand on level ground
     glm::dquat turn{1, 0, 0, 0}; ///< of the vehicle's frame (x right, y up, z behind) in the world
-    glm::dvec3 velocity_ms{0};
+    glm::dvec3 velocity_mps{0};
     std::array<WheelState, 4> wheels{}; ///< front left, front right, rear left, rear right
     [[nodiscard]] glm::dvec3 ahead() const { return turn * glm::dvec3(0, 0, -1); }
-    [[nodiscard]] double speed_ms() const { return glm::dot(velocity_ms, ahead()); } ///< forward
+    [[nodiscard]] double speed_mps() const { return glm::dot(velocity_mps, ahead()); } ///< forward
 };
 
 /// A vehicle on the ground that is drawn: Bullet's raycast vehicle, a spring a wheel, at a fixed step. It is where it is whatever the pictures'

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gl/program.h"
 
+#include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
 #include <epoxy/gl.h>
@@ -38,8 +41,30 @@ std::string one_line(std::string log) {
     return log;
 }
 
-GLuint compile(const std::filesystem::path& path, const std::vector<std::string>& defines) {
-    const ShaderSource source = expand_shader(path, defines);
+/// Words of each declaration that begins with `uniform` and holds no block, in code that is left out by the preprocessor too: a program's
+/// variants differ by it, and what sets their uniforms does not ask which variant it has.
+void add_uniforms(std::vector<std::string>& words, std::string_view text) {
+    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    bool declares = false;
+    for (std::size_t at = 0; at < text.size();) {
+        if (text.substr(at, 2) == "//") {
+            at = std::min(text.find('\n', at), text.size());
+        } else if (is_word(text[at])) {
+            const std::size_t end = static_cast<std::size_t>(std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_word) - text.begin());
+            const std::string_view word = text.substr(at, end - at);
+            if (declares) {
+                words.emplace_back(word);
+            }
+            declares |= word == "uniform";
+            at = end;
+        } else {
+            declares &= text[at] != ';' && text[at] != '{';
+            ++at;
+        }
+    }
+}
+
+GLuint compile(const ShaderSource& source, const std::filesystem::path& path) {
     const GLuint shader = glCreateShader(stage_of(path));
     const char* text = source.text.c_str();
     glShaderSource(shader, 1, &text, nullptr);
@@ -58,12 +83,14 @@ GLuint compile(const std::filesystem::path& path, const std::vector<std::string>
 }
 
 GLuint build(const std::string& name, const std::vector<std::filesystem::path>& stages,
-             const std::vector<std::string>& defines) {
+             const std::vector<std::string>& defines, std::vector<std::string>& declared) {
     breathe(); // a driver may take seconds for each
     const GLuint program = glCreateProgram();
     try {
         for (const auto& stage : stages) {
-            const GLuint shader = compile(stage, defines);
+            const ShaderSource source = expand_shader(stage, defines);
+            add_uniforms(declared, source.text);
+            const GLuint shader = compile(source, stage);
             glAttachShader(program, shader);
             glDeleteShader(shader); // lives on while attached
         }
@@ -106,7 +133,9 @@ std::vector<std::pair<std::string, int>> uniforms_of(GLuint program) {
 } // namespace
 
 Program::Program(std::string name, std::vector<std::filesystem::path> stages, std::vector<std::string> defines)
-    : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)), id_(build(name_, stages_, defines_)), locations_(uniforms_of(id_)) {}
+    : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)) {
+    reload();
+}
 
 Program::~Program() {
     if (id_) {
@@ -116,7 +145,7 @@ Program::~Program() {
 
 Program::Program(Program&& other) noexcept
     : name_(std::move(other.name_)), stages_(std::move(other.stages_)), defines_(std::move(other.defines_)),
-      id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)) {}
+      id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)), declared_(std::move(other.declared_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
@@ -124,6 +153,7 @@ Program& Program::operator=(Program&& other) noexcept {
     std::swap(defines_, other.defines_);
     std::swap(id_, other.id_);
     std::swap(locations_, other.locations_);
+    std::swap(declared_, other.declared_);
     return *this;
 }
 
@@ -135,12 +165,18 @@ int Program::location(const char* uniform) const {
             return at;
         }
     }
+    const std::string_view whole = std::string_view(uniform).substr(0, std::string_view(uniform).find_first_of(".["));
+    if (std::find(declared_.begin(), declared_.end(), whole) == declared_.end()) {
+        throw Error(ExitCode::kNoGpu, fmt::format("{}: no shader of this program declares the uniform {}", name_, uniform));
+    }
     return -1; // one that the compiler left out
 }
 
 void Program::reload() {
-    const GLuint fresh = build(name_, stages_, defines_);
-    glDeleteProgram(std::exchange(id_, fresh));
+    std::vector<std::string> declared;
+    const GLuint fresh = build(name_, stages_, defines_, declared);
+    glDeleteProgram(std::exchange(id_, fresh)); // 0 of a new program: passed over
+    declared_ = std::move(declared);
     locations_ = uniforms_of(id_);
 }
 

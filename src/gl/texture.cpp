@@ -79,6 +79,11 @@ void Texture::upload(int mip, std::uint32_t format, std::uint32_t type, const vo
     }
 }
 
+void Texture::upload_rows(int first, int rows, std::uint32_t format, std::uint32_t type, const void* data) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage2D(id_, 0, 0, first, shape_.width, rows, format, type, data);
+}
+
 void Texture::upload_blocks(int mip, std::uint32_t internal_format, const void* data, std::size_t bytes) {
     const int w = std::max(1, shape_.width >> mip);
     const int h = std::max(1, shape_.height >> mip);

@@ -26,6 +26,8 @@ public:
 
     /// Replaces one mip (all layers); `data` is tightly packed.
     void upload(int mip, std::uint32_t format, std::uint32_t type, const void* data);
+    /// Replaces `rows` rows of a plain texture, from row `first` on.
+    void upload_rows(int first, int rows, std::uint32_t format, std::uint32_t type, const void* data);
     /// Likewise for a block-compressed array: `bytes` of whole blocks.
     void upload_blocks(int mip, std::uint32_t internal_format, const void* data, std::size_t bytes);
     void set_filter(std::uint32_t minify, std::uint32_t magnify);

@@ -82,8 +82,11 @@ void read_march(const SetJson& set, const fs::path& directory, GrassSet& out) {
     for (std::size_t i = 0; i < slopes.size(); ++i)
         medium.slopes[i] = {slopes[i][0], slopes[i][1], slopes[i][2], slopes[i][3]};
     const std::vector<float> look = read_numbers(set, march, "look", 4, {0, 10000});
-    medium.look = {look[0], look[1], look[2], look[3]};
-    medium.size = {out.side_m, out.canopy_m, set.real(march, "translucency", 0, 1), static_cast<float>(out.variants)};
+    medium.gloss = {look[0], look[1], look[2], look[3]};
+    medium.side_m = out.side_m;
+    medium.canopy_m = out.canopy_m;
+    medium.translucency = set.real(march, "translucency", 0, 1);
+    medium.variants = out.variants;
     shared::fill_views(medium);
     constexpr int kTexels = shared::kMarchTexels, kRows = kMarchRows;
     const int columns = kTexels >> shared::kColumnBase;

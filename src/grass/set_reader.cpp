@@ -27,13 +27,16 @@ constexpr int kMaxImages = 256;                                // layers, or sli
 constexpr std::size_t kMaxFarRows = 256;
 
 shared::GrassAppearance read_look(const SetJson& set, const json& look) {
-    shared::GrassAppearance out;
-    out.root = set.colour(look, "root", set.real(look, "dry_share", 0, 1));
-    out.tip = set.colour(look, "tip", set.real(look, "variation", 0, 1));
-    out.dry = set.colour(look, "dry", set.real(look, "translucency", 0, 1));
-    out.light = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000),
+    shared::GrassAppearance out{};
+    out.root = shared::vec3(set.colour(look, "root", 0));
+    out.dry_share = set.real(look, "dry_share", 0, 1);
+    out.tip = shared::vec3(set.colour(look, "tip", 0));
+    out.variation = set.real(look, "variation", 0, 1);
+    out.dry = shared::vec3(set.colour(look, "dry", 0));
+    out.translucency = set.real(look, "translucency", 0, 1);
+    out.gloss = {set.real(look, "kd", 0, 1000), set.real(look, "pd", 0, 1000),
                  set.real(look, "ks", 0, 1000), set.real(look, "ps", 0, 10000)};
-    out.head = set.colour(look, "head", 0);
+    out.head = shared::vec3(set.colour(look, "head", 0));
     out.outline = {set.real(look, "taper", 0.1, 100), set.real(look, "stalk", 0, 1),
                    set.real(look, "head_from", 0, 1), set.real(look, "fullness", 0.01, 100)};
     return out;

@@ -68,6 +68,7 @@ std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double ti
 FieldState::FieldState(World inputs)
     : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)),
       surface(world.elevation, world.scene.terrain.detail_m), ground(std::make_shared<terrain::GroundSource>(surface, world.mask)),
+      atmosphere(world.scene.air.visibility_km),
       wind(world.scene.wind, response,
            std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })),
       march_textures(world.grass.march), far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass),
@@ -78,6 +79,8 @@ FieldState::FieldState(World inputs)
         mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
         mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
         world.surface = {};
+    } else {
+        land_shadow = std::make_unique<terrain::LandShadow>(surface.elevation());
     }
     if (world.scene.tracks) {
         tracks = std::make_unique<tracks::Tracks>(world.scene, world.grass.canopy_m,
@@ -124,7 +127,7 @@ void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const S
     }
     timers.begin_frame(settings.wait_in_passes);
     track(time, eyes);
-    light_followed_ = false;
+    light_followed_ = shadow_followed_ = false;
     const glm::dvec3 eye = eyes.front();
     blades::LivingBlades* const alive = wake(settings, static_cast<int>(eyes.size()));
     if (!alive) {
@@ -174,6 +177,17 @@ void FieldState::follow_light(const shared::Light& light, const shared::WindFiel
         light_followed_ = true;
     }
     march_light_.bind();
+}
+
+void FieldState::follow_shadow() {
+    if (!land_shadow) {
+        return;
+    }
+    if (light_at_once || !shadow_followed_) {
+        land_shadow->follow(to_sun(), light_at_once);
+        shadow_followed_ = true;
+    }
+    land_shadow->bind();
 }
 
 void FieldState::set_density(double density) {

@@ -12,6 +12,7 @@
 #include "blades/simulation.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
+#include "render/atmosphere.h"
 #include "render/draw_passes.h"
 #include "render/lens.h"
 #include "render/mesh_ground.h"
@@ -23,6 +24,7 @@
 #include "shells/march_textures.h"
 #include "terrain/clipmap.h"
 #include "terrain/detail.h"
+#include "terrain/land_shadow.h"
 #include "terrain/terrain_pass.h"
 #include "tracks/tracks.h"
 #include "wind/sources.h"
@@ -57,6 +59,10 @@ struct FieldState {
     /// The march's light, brought up to date: by a part a frame, whichever view asks first.
     void follow_light(const shared::Light& light, const shared::WindField& wind);
 
+    [[nodiscard]] glm::dvec3 to_sun() const; ///< unit
+    /// The shadow of the land likewise; nothing on a mesh.
+    void follow_shadow();
+
     /// Throw Error(kBadInput); (kUsage) where a scene on a mesh has been placed for good.
     void set_density(double density);
     void check_object(std::size_t object, const glm::dmat4& world_from_object) const;
@@ -76,6 +82,8 @@ struct FieldState {
     double response; ///< bend per m/s of the set's mean blade
     terrain::Surface surface;
     std::shared_ptr<terrain::GroundSource> ground;
+    mutable Atmosphere atmosphere; ///< keeps the last sun's light
+    std::unique_ptr<terrain::LandShadow> land_shadow; ///< of a scene on elevation
     wind::Wind wind;
     shells::MarchTextures march_textures;
     shells::FarTextures far_textures; ///< of the raster schemes, where the world wants them
@@ -104,6 +112,7 @@ private:
         return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get()) : simulation.get();
     }
 
+    void light_shot(shared::FrameConstants& out, const glm::dvec3& eye, const glm::dvec2& anchor) const;
     void track(double time_s, std::span<const glm::dvec3> eyes);
 
     bool lives_ = false; ///< the last simulate() wanted it
@@ -113,7 +122,7 @@ private:
     gl::Buffer frame_buffer_;
     std::unique_ptr<DrawPasses> plain_passes_, aov_passes_;
     shells::MarchLight march_light_;
-    bool light_followed_ = false; ///< since simulate()
+    bool light_followed_ = false, shadow_followed_ = false; ///< since simulate()
 };
 
 /// Whether the reference's blades are culled by its samples, so many a pixel.

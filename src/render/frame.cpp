@@ -27,6 +27,7 @@ void Frame::draw() {
 void Frame::draw_picture() {
     begin_picture(); // uploads the constants that every pass below reads
     run(kClipmap, on_elevation(), &Frame::update_clipmap);
+    run(kLandShadow, on_elevation(), &Frame::follow_shadow);
     run(kFarAppearance, rasterises(), &Frame::update_far_appearance);
     run(kSelectBlocks, on_elevation(), &Frame::select_blocks);
     run(kSelectFar, rasterises(), &Frame::select_far);

@@ -63,6 +63,7 @@ private:
     void draw_slices();
     void draw_sky();
     void resolve();
+    void follow_shadow();
     void follow_light();
     void draw_canopy();
     void march();

@@ -31,38 +31,49 @@ glm::dmat4 clip_from_eye(const Lens& lens, const FrameSettings& settings, glm::d
     return projection * lens.turn;
 }
 
-/// Clear summer sky by the sun's height: warmer and weaker as it sinks.
-shared::Light light_of(const scene::SunSpec& sun) {
-    const glm::dvec3 to_sun = direction(sun.azimuth_deg, sun.elevation_deg);
-    const double high = std::max(to_sun.y, 0.0);
-    const double air = 1 / (high + 0.15 * std::pow(93.9 - std::min(90.0, 90 - sun.elevation_deg), -1.253)); // Kasten 1965
-    const glm::dvec3 through = glm::exp(-glm::dvec3(0.06, 0.11, 0.22) * air); // clear-air optical depths at R, G, B
-    const double dusk = glm::smoothstep(-6.0, 8.0, sun.elevation_deg);
-    shared::Light light{};
-    light.to_sun = glm::vec4(glm::vec3(to_sun), shared::kSunExtinction);
-    light.sun = glm::vec4(glm::vec3(through * 4.2 * glm::smoothstep(-1.0, 3.0, sun.elevation_deg)), 2.2e-5f);
-    light.zenith = glm::vec4(glm::vec3(glm::dvec3(0.16, 0.36, 0.86) * (0.05 + 0.95 * dusk)), shared::kSkyExtinction);
-    light.horizon = glm::vec4(glm::vec3(glm::mix(glm::dvec3(0.75, 0.55, 0.40), glm::dvec3(0.82, 0.96, 1.12), glm::smoothstep(0.0, 20.0, sun.elevation_deg)) *
-                                        (0.04 + 0.96 * dusk)), 1);
-    return light;
-}
-
 /// Bands by tier: the reference and --tiers blades draw geometry to one distance and hand nothing on.
 void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const FrameSettings& settings) {
     const bool geometry_only = settings.tiers == Tiers::kBlades || settings.tiers == Tiers::kReference;
     const auto reach = static_cast<float>(settings.tiers == Tiers::kReference ? settings.reference_distance_m : settings.blades_distance_m);
     const glm::vec2 drawn = geometry_only ? glm::vec2(reach, reach * 1.001f) : bands.handover;
-    out.handover = {drawn.x, drawn.y, kWidthMin_px, kWidthSpan_px};
+    out.handover_band = drawn;
+    out.width_least_px = kWidthMin_px;
+    out.width_span_px = kWidthSpan_px;
     if (settings.tiers == Tiers::kReference) {
-        out.handover.z = 0.0f; // the truth is not widened
-        out.handover.w = 1e-6f;
+        out.width_least_px = 0.0f; // the truth is not widened
+        out.width_span_px = 1e-6f;
     }
-    out.pose_band = {bands.handover.x, bands.handover.y, kSegment_px, 0}; // w: the set's, by make_shot
+    out.pose_band = bands.handover;
+    out.segment_px = kSegment_px;
     for (std::size_t k = 0; k < bands.far.size(); ++k) {
-        out.far_bands[k] = bands.far[k];
+        out.far_bands[k] = {glm::vec2(bands.far[k]), {bands.far[k].z, bands.far[k].w}};
     }
-    out.grass.z = geometry_only || settings.far == FarScheme::kMarch ? 0.0f : 1.0f;
-    out.mode = {static_cast<int>(settings.handover), settings.force_far_level, settings.tiers == Tiers::kShells ? 1 : 0, 0};
+    out.ground_takes_over = geometry_only || settings.far == FarScheme::kMarch ? 0.0f : 1.0f;
+    out.handover_mode = static_cast<int>(settings.handover);
+    out.forced_level = settings.force_far_level;
+    out.far_alone = settings.tiers == Tiers::kShells ? 1 : 0;
+}
+
+/// What is known of the set alone: where its patches lie from the anchor (world x, z), how it looks, what lies under it.
+void describe_set(shared::FrameConstants& out, const grass::GrassSet& set, glm::dvec2 anchor) {
+    const double side = set.side_m;
+    const glm::dvec2 tile = glm::floor(anchor / side);
+    out.patch_offset_m = glm::vec2(anchor - tile * side);
+    out.patch_side_m = set.side_m;
+    out.canopy_m = set.canopy_m;
+    out.anchor_tile = glm::ivec2(tile);
+    out.patch_variants = set.variants;
+    out.far_levels = static_cast<int>(set.levels.size());
+    out.offset_range_m = set.offset_range_m;
+    out.height_coding = set.height_coding;
+    for (std::size_t i = 0; i < set.species.size(); ++i) {
+        out.looks[i] = set.species[i].look;
+    }
+    out.soil = {0.085f, 0.062f, 0.040f};
+    out.soil_cover = set.floor.cover;
+    out.rock = {0.17f, 0.155f, 0.135f, 0}; // and scree
+    out.moss = glm::vec4(set.floor.moss, 0);
+    out.litter = glm::vec4(set.floor.litter, 0);
 }
 
 /// Fraction of the flutter's period: reduced here, where a day is still exact to microseconds.
@@ -72,6 +83,17 @@ double flutter_time(double time_s) {
 }
 
 } // namespace
+
+glm::dvec3 FieldState::to_sun() const { return direction(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg); }
+
+void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye, const glm::dvec2& anchor) const {
+    const Atmosphere::Day& day = atmosphere.at(to_sun());
+    out.light = day.light;
+    out.air = Atmosphere::thinned(day.air, eye.y - surface.range().x);
+    if (land_shadow) {
+        land_shadow->describe(out, anchor);
+    }
+}
 
 Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) const {
     Shot shot;
@@ -90,42 +112,34 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     const glm::dmat4 matrix = clip_from_eye(lens, settings, jitter) * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
     out.clip_from_world = glm::mat4(matrix);
     out.world_from_clip = glm::mat4(glm::inverse(matrix));
-    out.eye = glm::vec4(glm::vec3(eye_here), static_cast<float>(focal_px));
-    out.lod_eye = glm::vec4(glm::vec3(lod_eye - shot.anchor), static_cast<float>(flutter_time(time_s)));
+    out.eye = glm::vec3(eye_here);
+    out.focal_px = static_cast<float>(focal_px);
+    out.lod_eye = glm::vec3(lod_eye - shot.anchor);
+    out.flutter_time = static_cast<float>(flutter_time(time_s));
 
-    const double side = set.side_m;
-    const glm::dvec2 tile = glm::floor(anchor / side);
-    out.patch_grid = glm::vec4(glm::vec2(anchor - tile * side), set.side_m, set.canopy_m);
-    out.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants, static_cast<int>(set.levels.size())};
-    out.grass = {set.offset_range_m, world.scene.grass.density, 1, shot.anchor.y};
+    describe_set(out, set, anchor);
+    out.blade_width_m = static_cast<float>(mean_blade_width_m);
+    out.density_scale = static_cast<float>(world.scene.grass.density);
+    out.anchor_height_m = static_cast<float>(shot.anchor.y);
     fill_bands(out, shot.bands, settings);
     const double aside = glm::length(glm::dvec2(lod_eye.x - eye.x, lod_eye.z - eye.z));
-    shot.detail = terrain::detail_of(lens.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover.y) + aside);
-    out.pose_band.w = static_cast<float>(mean_blade_width_m);
-    out.mode.w = set.height_coding;
+    shot.detail = terrain::detail_of(lens.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover_band.y) + aside);
     clipmap.describe(out, anchor);
-    out.clip_layout.y = settings.width;
-    out.clip_layout.z = settings.height;
-    for (std::size_t i = 0; i < set.species.size(); ++i) {
-        out.looks[i] = set.species[i].look;
-    }
+    out.picture_px = {settings.width, settings.height};
     if (mesh_ground) {
         mesh_ground->describe(out, settings.far == FarScheme::kMarch);
     }
-    out.light = light_of(world.scene.sun);
+    light_shot(out, eye, anchor);
     out.wind = wind.field(anchor, time_s);
     if (tracks) {
         out.tracks = tracks->field(anchor);
     }
     if (const blades::LivingBlades* alive = living()) {
         const auto reach = static_cast<float>(std::max(alive->reach_m() - away_from_eyes(eye), 0.0));
-        out.simulated = {kLivingFade * reach, std::max(reach, 1e-3f), static_cast<float>(alive->pass().blades_a_page()), 0};
+        out.living_band = {kLivingFade * reach, std::max(reach, 1e-3f)};
+        out.page_blades = static_cast<int>(alive->pass().blades_a_page());
     }
     out.near_m = static_cast<float>(lens.near_m);
-    out.soil = {0.085f, 0.062f, 0.040f, set.floor.cover};
-    out.rock = {0.17f, 0.155f, 0.135f, 0}; // and scree
-    out.moss = glm::vec4(set.floor.moss, 0);
-    out.litter = glm::vec4(set.floor.litter, 0);
     out.anchor_x = static_cast<int>(shot.anchor.x / shared::kAnchorGrid_m);
     out.anchor_z = static_cast<int>(shot.anchor.z / shared::kAnchorGrid_m);
     return shot;

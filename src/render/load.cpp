@@ -147,7 +147,7 @@ void check_arrows(const std::vector<scene::WindArrow>& arrows) {
     std::map<std::string, std::string> parents;
     for (const scene::WindArrow& arrow : arrows) {
         const bool finite = std::isfinite(arrow.root.x + arrow.root.y + arrow.tip.x + arrow.tip.y);
-        if (!finite || !(arrow.radius_m > 0 && arrow.radius_m <= 1e6) || !(std::abs(arrow.strength_ms) <= 1e4) || std::isnan(arrow.start_s + arrow.end_s)) {
+        if (!finite || !(arrow.radius_m > 0 && arrow.radius_m <= 1e6) || !(std::abs(arrow.strength_mps) <= 1e4) || std::isnan(arrow.start_s + arrow.end_s)) {
             throw unfit(("arrow " + base::printable(arrow.id)).c_str(), "numbers out of range", "finite places, a radius above 0, a speed");
         }
         if (!parents.emplace(arrow.id, arrow.parent).second) {

@@ -34,22 +34,24 @@ MeshPass::Look MeshGround::look(glm::vec3 origin) const {
 
 void MeshGround::describe(shared::FrameConstants& frame, bool far_field) const {
     if (!has_set() || !far_field) {
-        frame.handover.x = kNoHandover_m;
-        frame.handover.y = 1.001f * kNoHandover_m;
+        frame.handover_band = {kNoHandover_m, 1.001f * kNoHandover_m};
     }
     if (has_set()) {
-        frame.patch_grid.x = frame.patch_grid.y = 0;
-        frame.patch_tile.x = frame.patch_tile.y = 0;
+        frame.patch_offset_m = glm::vec2(0);
+        frame.anchor_tile = glm::ivec2(0);
         return;
     }
     shared::GrassAppearance& look = frame.looks[0];
-    look.root = glm::vec4(glm::vec3(spec_.root_colour), spec_.dry_share);
-    look.tip = glm::vec4(glm::vec3(spec_.tip_colour), spec_.variation);
-    look.dry = glm::vec4(glm::vec3(spec_.dry_colour), spec_.translucency);
-    look.light = {1, 1, 0.06f, 18}; // the presets'
+    look.root = glm::vec3(spec_.root_colour);
+    look.dry_share = static_cast<float>(spec_.dry_share);
+    look.tip = glm::vec3(spec_.tip_colour);
+    look.variation = static_cast<float>(spec_.variation);
+    look.dry = glm::vec3(spec_.dry_colour);
+    look.translucency = static_cast<float>(spec_.translucency);
+    look.gloss = {1, 1, 0.06f, 18}; // the presets'
     look.outline = {2, 1, 1, 1};
-    frame.patch_grid.w = static_cast<float>(spec_.blade_height_m.y);
-    frame.pose_band.w = static_cast<float>(mean_blade_width_m());
+    frame.canopy_m = static_cast<float>(spec_.blade_height_m.y);
+    frame.blade_width_m = static_cast<float>(mean_blade_width_m());
 }
 
 } // namespace sward::render

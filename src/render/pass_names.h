@@ -8,6 +8,7 @@ namespace sward::render::pass_names {
 inline constexpr const char* kWind = "wind";
 inline constexpr const char* kTracks = "tracks";
 inline constexpr const char* kClipmap = "clipmap";
+inline constexpr const char* kLandShadow = "land shadow";
 inline constexpr const char* kFarAppearance = "far appearance";
 inline constexpr const char* kSelectBlocks = "select blocks";
 inline constexpr const char* kSelectFar = "select far";

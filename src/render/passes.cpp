@@ -14,8 +14,8 @@ namespace {
 
 /// Where the mean wind turns an upright blade, at kLeanHeight: x, z.
 glm::vec2 mean_bend(const shared::FrameConstants& frame) {
-    const float canopy = frame.patch_grid.w;
-    const glm::vec3 turn = shared::bend_turn(shared::kLeanHeight * canopy, canopy, {frame.wind.mean.x, frame.wind.mean.y}, frame.wind.mean.w);
+    const float canopy = frame.canopy_m;
+    const glm::vec3 turn = shared::bend_turn(shared::kLeanHeight * canopy, canopy, frame.wind.mean, frame.wind.response);
     return {turn.x, turn.z};
 }
 
@@ -52,7 +52,8 @@ void Frame::begin_picture() {
     }
     shot_ = f_.make_shot(v_.clipmap, lens_, s_, jitter_of(picture_));
     if (!living()) {
-        shot_.constants.simulated = glm::vec4(0);
+        shot_.constants.living_band = glm::vec2(0);
+        shot_.constants.page_blades = 0;
     }
     v_.frame_buffer.upload(&shot_.constants, sizeof(shot_.constants));
     v_.frame_buffer.bind_uniform(BIND_FRAME);
@@ -68,6 +69,8 @@ void Frame::update_clipmap() {
     v_.clipmap.bind();
 }
 
+void Frame::follow_shadow() { f_.follow_shadow(); }
+
 void Frame::update_far_appearance() {
     f_.far_appearance.update(shot_.constants.light, shot_.constants.wind);
     f_.far_appearance.bind();
@@ -76,7 +79,7 @@ void Frame::update_far_appearance() {
 void Frame::select_blocks() {
     terrain::Detail detail = shot_.detail;
     blocks_ = terrain::visible_blocks(v_.clipmap, f_.surface, terrain::Frustum(shot_.constants.clip_from_world), shot_.anchor,
-                                      {glm::vec3(shot_.constants.eye), f_.world.grass.canopy_m}, detail);
+                                      {shot_.constants.eye, f_.world.grass.canopy_m}, detail);
     fine_ = detail.on();
     if (fine_) {
         v_.clipmap.bind_posts({shot_.anchor.x, shot_.anchor.z}, detail);
@@ -87,7 +90,7 @@ void Frame::select_far() {
     const shared::FrameConstants& constants = shot_.constants;
     shares_ = s_.far == FarScheme::kPublished ? shells::published_shares() : shells::fitted_shares(f_.world.grass);
     far_ = shells::select_far(f_.world.grass, blocks_, shot_.bands,
-                              {constants.eye, constants.lod_eye, constants.patch_grid, constants.mode.z != 0, s_.force_far_level, shares_,
+                              {constants.eye, constants.lod_eye, constants.patch_offset_m, constants.far_alone != 0, s_.force_far_level, shares_,
                                mean_bend(constants)});
 }
 
@@ -110,8 +113,8 @@ void Frame::build_pyramid() { v_.depth_pyramid.build(v_.targets.scene_depth(), v
 
 void Frame::select_blades() {
     const auto tiles = blades::select_tiles(f_.world.grass, f_.surface, terrain::Frustum(shot_.constants.clip_from_world),
-                                            {shot_.anchor, glm::vec3(shot_.constants.lod_eye), glm::vec2(shot_.constants.handover),
-                                             shot_.constants.mode.x, living() ? &f_.simulation->pages() : nullptr});
+                                            {shot_.anchor, shot_.constants.lod_eye, shot_.constants.handover_band,
+                                             shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr});
     f_.cull.upload(tiles, v_.blades_considered > 0);
     v_.blades_considered += tiles.considered;
 }
@@ -130,7 +133,7 @@ void Frame::draw_surface_blades() {
         return;
     }
     blades::SurfacePass& grass = f_.mesh_ground->grass();
-    grass.limit(glm::vec3(shot_.constants.lod_eye), shot_.constants.handover.y);
+    grass.limit(shot_.constants.lod_eye, shot_.constants.handover_band.y);
     grass.execute(terrain::Frustum(shot_.constants.clip_from_world), glm::vec3(-shot_.anchor), passes_.surface(s_.aov), tests_of(s_),
                   v_.blades_considered > 0, living() ? f_.surface_simulation.get() : nullptr, [this](const char* name, auto&& step) {
                       const gl::PassScope pass(v_.timers, name);

@@ -22,8 +22,8 @@ std::vector<glm::vec2> sample_places(int samples) {
 
 /// What any picture of a round sees: its first one's view and a pixel around it.
 terrain::Frustum frustum_of_round(const Shot& shot) {
-    const glm::ivec4& layout = shot.constants.clip_layout;
-    const glm::vec4 shrunk(1 / (1 + 2.0f / static_cast<float>(layout.y)), 1 / (1 + 2.0f / static_cast<float>(layout.z)), 1, 1);
+    const glm::vec2 picture(shot.constants.picture_px);
+    const glm::vec4 shrunk(1 / (1 + 2.0f / picture.x), 1 / (1 + 2.0f / picture.y), 1, 1);
     return terrain::Frustum(glm::mat4(glm::vec4(shrunk.x, 0, 0, 0), glm::vec4(0, shrunk.y, 0, 0), glm::vec4(0, 0, 1, 0), glm::vec4(0, 0, 0, 1)) *
                             shot.constants.clip_from_world);
 }
@@ -40,7 +40,7 @@ void Frame::choose_blades() {
         f_.sample_cull = std::make_unique<blades::SampleCull>();
     }
     const auto tiles = blades::select_tiles(f_.world.grass, f_.surface, frustum_of_round(shot_),
-                                            {shot_.anchor, glm::vec3(shot_.constants.lod_eye), glm::vec2(shot_.constants.handover), shot_.constants.mode.x,
+                                            {shot_.anchor, shot_.constants.lod_eye, shot_.constants.handover_band, shot_.constants.handover_mode,
                                              living() ? &f_.simulation->pages() : nullptr});
     const int most = tiles.items.size() > blades::SampleCull::kMostKept ? 1 : blades::SampleCull::kRound;
     round_begin_ = picture_;

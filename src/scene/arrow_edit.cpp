@@ -9,8 +9,8 @@
 namespace sward::scene {
 namespace {
 
-constexpr double kNewStrength_ms = 8, kNewRadius_m = 3;
-constexpr double kMostStrength_ms = 300, kLeastRadius_m = 0.01, kMostRadius_m = 1000; // wind_section.cpp's ranges
+constexpr double kNewStrength_mps = 8, kNewRadius_m = 3;
+constexpr double kMostStrength_mps = 300, kLeastRadius_m = 0.01, kMostRadius_m = 1000; // wind_section.cpp's ranges
 constexpr double kMostPlace_m = 1e6;
 
 /// On whole millimetres: a file stays readable, and equal places stay equal.
@@ -63,7 +63,7 @@ std::optional<std::size_t> ArrowEdit::add(glm::dvec2 root, glm::dvec2 tip) {
     WindArrow arrow;
     arrow.root = root;
     arrow.tip = tip;
-    arrow.strength_ms = kNewStrength_ms;
+    arrow.strength_mps = kNewStrength_mps;
     arrow.radius_m = kNewRadius_m;
     return append(arrow);
 }
@@ -74,7 +74,7 @@ std::optional<std::size_t> ArrowEdit::branch(std::size_t parent, glm::dvec2 tip)
     arrow.parent = trunk.id;
     arrow.root = trunk.tip;
     arrow.tip = tip;
-    arrow.strength_ms = trunk.strength_ms;
+    arrow.strength_mps = trunk.strength_mps;
     arrow.radius_m = trunk.radius_m;
     return append(arrow);
 }
@@ -142,11 +142,11 @@ void ArrowEdit::erase_branch(std::size_t arrow) {
     commit(std::move(next));
 }
 
-void ArrowEdit::set_strength(std::size_t arrow, double strength_ms) {
-    if (!std::isfinite(strength_ms))
+void ArrowEdit::set_strength(std::size_t arrow, double strength_mps) {
+    if (!std::isfinite(strength_mps))
         return;
     State next = arrows_;
-    next.at(arrow).strength_ms = std::clamp(strength_ms, 0.0, kMostStrength_ms);
+    next.at(arrow).strength_mps = std::clamp(strength_mps, 0.0, kMostStrength_mps);
     commit(std::move(next));
 }
 

@@ -44,7 +44,7 @@ public:
     void erase(std::size_t arrow);
     /// Takes an arrow out with all that continues it.
     void erase_branch(std::size_t arrow);
-    void set_strength(std::size_t arrow, double strength_ms);
+    void set_strength(std::size_t arrow, double strength_mps);
     void set_radius(std::size_t arrow, double radius_m);
 
     /// Changes until end() count as one: a drag, a slider. begin() within begin() does nothing.

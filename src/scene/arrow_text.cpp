@@ -40,7 +40,7 @@ std::vector<std::pair<std::string, std::string>> keys_of(const WindArrow& arrow)
         keys.emplace_back("parent", shown(arrow.parent));
     keys.emplace_back("root", shown(arrow.root));
     keys.emplace_back("tip", shown(arrow.tip));
-    keys.emplace_back("strength_ms", shown(arrow.strength_ms));
+    keys.emplace_back("strength_mps", shown(arrow.strength_mps));
     keys.emplace_back("radius_m", shown(arrow.radius_m));
     if (arrow.start_s != 0)
         keys.emplace_back("start_s", shown(arrow.start_s));
@@ -127,7 +127,7 @@ private:
     void update(const toml::table& table, const WindArrow& arrow) {
         std::string added;
         for (const auto& [key, value] : keys_of(arrow)) {
-            const toml::node* node = table.get(key);
+            const toml::node* node = table.get(spelt(table, key)); // an older file keeps its spelling
             if (!node) {
                 if (key != "radius_m" || arrow.radius_m != WindArrow{}.radius_m)
                     added += key + " = " + value + newline_;
@@ -154,7 +154,7 @@ private:
             return node.value<std::string>() == arrow.parent;
         if (key == "root" || key == "tip")
             return pair(key == "root" ? arrow.root : arrow.tip);
-        const double value = key == "strength_ms" ? arrow.strength_ms
+        const double value = key == "strength_mps" ? arrow.strength_mps
                              : key == "radius_m"  ? arrow.radius_m
                              : key == "start_s"   ? arrow.start_s
                                                   : arrow.end_s;

@@ -79,6 +79,10 @@ struct SunSpec {
     double elevation_deg = 35;
 };
 
+struct AirSpec {
+    double visibility_km = 60; ///< over the lowest ground: where the air leaves 2 % of a dark thing's contrast to the sky
+};
+
 struct ObjectSpec {
     std::string kind; ///< sphere, mesh, vehicle, rotor
     double radius_m = 0.5;
@@ -105,6 +109,7 @@ struct Scene {
     GrassSpec grass;
     SurfaceGrassSpec surface_grass; ///< of terrain.surface
     SunSpec sun;
+    AirSpec air;
     WindSpec wind;
     std::optional<TrackSpec> tracks; ///< none: nothing stays
     std::vector<ObjectSpec> objects;

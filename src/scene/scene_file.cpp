@@ -30,6 +30,7 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
     auto grass = root.table("grass");
     auto surface_grass = root.table("surface_grass");
     auto sun = root.table("sun");
+    auto air = root.table("air");
     auto wind = root.table("wind");
     auto tracks = root.table("tracks");
     auto objects = root.tables("object", kMostObjects);
@@ -50,6 +51,8 @@ Scene parse_scene(const std::string& text, const std::filesystem::path& file) {
         read_surface_grass(*surface_grass, scene.surface_grass, scene.grass);
     if (sun)
         read_sun(*sun, scene.sun);
+    if (air)
+        read_air(*air, scene.air);
     if (cameras)
         for (const auto& [name, table] : cameras->named_tables(kMostNamed))
             scene.cameras[name] = read_camera(table);

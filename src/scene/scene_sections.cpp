@@ -85,6 +85,11 @@ void read_sun(TableReader table, SunSpec& sun) {
     table.finish();
 }
 
+void read_air(TableReader table, AirSpec& air) {
+    table.number("visibility_km", air.visibility_km, {0.1, 250, "km"});
+    table.finish();
+}
+
 void read_lod(TableReader table, LodSpec& lod) {
     table.number("handover_start_m", lod.handover_start_m, {0, 1e5, "m"});
     table.number("handover_end_m", lod.handover_end_m, {0, 1e5, "m"});

@@ -18,6 +18,7 @@ void read_surface_grass(TableReader table, SurfaceGrassSpec& grass, GrassSpec& o
 /// A linear reflectance [r, g, b], each 0 to 1.
 void read_colour(TableReader& table, const char* key, glm::dvec3& colour);
 void read_sun(TableReader table, SunSpec& sun);
+void read_air(TableReader table, AirSpec& air);
 /// `paths` are the scene's: a source or obstacle that follows one must name one that exists.
 void read_wind(TableReader table, const std::map<std::string, Path>& paths, WindSpec& wind);
 /// [tracks]; in track_section.cpp. Paths as read_wind's.

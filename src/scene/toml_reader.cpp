@@ -86,6 +86,14 @@ toml::table parse_toml(const std::string& text, const std::filesystem::path& fil
     }
 }
 
+std::string spelt(const toml::table& table, std::string_view key) {
+    constexpr std::string_view kNow = "_mps", kOnce = "_ms";
+    if (table.contains(key) || !key.ends_with(kNow))
+        return std::string(key);
+    const std::string once = std::string(key.substr(0, key.size() - kNow.size())).append(kOnce);
+    return table.contains(once) ? once : std::string(key);
+}
+
 bool is_name(std::string_view text) {
     const auto fits = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
@@ -100,7 +108,10 @@ TableReader::TableReader(const toml::table& table, std::filesystem::path file, s
 
 const toml::node* TableReader::find(const char* key) {
     known_.emplace_back(key);
-    return table_->get(key);
+    const std::string in_file = spelt(*table_, key);
+    if (in_file != key)
+        known_.push_back(in_file);
+    return table_->get(in_file);
 }
 
 std::string TableReader::full_name(std::string_view key) const {
@@ -109,7 +120,7 @@ std::string TableReader::full_name(std::string_view key) const {
 }
 
 int TableReader::line_of(std::string_view key) const {
-    const toml::node* node = table_->get(key);
+    const toml::node* node = table_->get(spelt(*table_, key));
     const toml::source_region& region = node ? node->source() : table_->source();
     return static_cast<int>(region.begin.line);
 }

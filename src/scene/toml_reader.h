@@ -16,6 +16,9 @@
 
 namespace sward::scene {
 
+/// How a table spells a key: as asked, or as it was once called. Metres a second ended in "_ms" then, which is milliseconds; such files are still read.
+[[nodiscard]] std::string spelt(const toml::table& table, std::string_view key);
+
 /// One table of a TOML file. Asking for a key declares it, so finish() can refuse every key that
 /// nobody asked for. A key that is absent leaves its target as it is. Everything throws base::Error
 /// with file, line, key, found and expected.
@@ -54,7 +57,7 @@ public:
     /// Refuses the absence of `key`.
     void require(const char* key) const;
 
-    [[nodiscard]] bool has(const char* key) const { return table_->contains(key); }
+    [[nodiscard]] bool has(const char* key) const { return table_->contains(spelt(*table_, key)); }
     [[nodiscard]] base::Error error(const char* key, std::string_view found,
                                     std::string_view expected) const;
     [[nodiscard]] base::Error over_limit(const char* key, std::size_t found,

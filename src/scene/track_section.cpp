@@ -57,8 +57,8 @@ void read_track_mask(TableReader& table, TrackSpec& tracks) {
 void read_tracks(TableReader table, const std::map<std::string, Path>& paths, TrackSpec& tracks) {
     table.number("cell_m", tracks.cell_m, {0.05, 4, "m"});
     table.integer("pages", tracks.pages, 1, 1024);
-    table.number("wave_ms", tracks.wave_ms, {1, 10, "m/s"});
-    table.number("rate_wave_ms", tracks.rate_wave_ms, {1, 10, "m/s"});
+    table.number("wave_mps", tracks.wave_mps, {1, 10, "m/s"});
+    table.number("rate_wave_mps", tracks.rate_wave_mps, {1, 10, "m/s"});
     table.number("wave_gain_m", tracks.wave_gain_m, {0, 1.5, "m"});
     table.number("damping", tracks.damping, {0.01, 1, ""});
     table.number("recovery_per_s2", tracks.recovery_per_s2, {0, 1000, "1/s2"});
@@ -71,7 +71,7 @@ void read_tracks(TableReader table, const std::map<std::string, Path>& paths, Tr
     // C2 is stable up to here; waves that mu would make faster are held there.
     const double most = static_cast<double>(shared::track_greatest_wave(static_cast<float>(tracks.cell_m), shared::kTrackStep_s,
                                                                        static_cast<float>(tracks.recovery_per_s2)));
-    for (const auto& [key, value] : {std::pair{"wave_ms", tracks.wave_ms}, std::pair{"rate_wave_ms", tracks.rate_wave_ms}})
+    for (const auto& [key, value] : {std::pair{"wave_mps", tracks.wave_mps}, std::pair{"rate_wave_mps", tracks.rate_wave_mps}})
         if (value > most)
             throw table.error(key, fmt::format("{}", value),
                               fmt::format("at most {:.3f} m/s with tracks.cell_m = {} and recovery_per_s2 = {}", most, tracks.cell_m, tracks.recovery_per_s2));

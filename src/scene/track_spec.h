@@ -23,8 +23,8 @@ struct TrackFoot {
 struct TrackSpec {
     double cell_m = 0.25;
     int pages = 225;            ///< of 128 x 128 cells, at most
-    double wave_ms = 2;         ///< c0
-    double rate_wave_ms = 1;    ///< c_omega
+    double wave_mps = 2;         ///< c0
+    double rate_wave_mps = 1;    ///< c_omega
     double wave_gain_m = 0.2;   ///< mu
     double damping = 0.15;      ///< l
     double recovery_per_s2 = 8; ///< k; 0: the paper's, in which a bend spreads and never rises

@@ -22,11 +22,11 @@ WindArrow read_arrow(TableReader& table) {
     table.name_or_none("parent", arrow.parent);
     table.place("root", arrow.root);
     table.place("tip", arrow.tip);
-    table.number("strength_ms", arrow.strength_ms, {0, 300, "m/s"});
+    table.number("strength_mps", arrow.strength_mps, {0, 300, "m/s"});
     table.number("radius_m", arrow.radius_m, {0.01, 1000, "m"});
     read_span(table, arrow.start_s, arrow.end_s);
     table.finish();
-    for (const char* key : {"id", "root", "tip", "strength_ms"})
+    for (const char* key : {"id", "root", "tip", "strength_mps"})
         table.require(key);
     check_span(table, arrow.start_s, arrow.end_s);
     if (arrow.root == arrow.tip)
@@ -133,7 +133,7 @@ void check_span(const TableReader& table, double start_s, double end_s) {
 }
 
 void read_wind(TableReader table, const std::map<std::string, Path>& paths, WindSpec& wind) {
-    table.number("speed_ms", wind.speed_ms, {0, 150, "m/s"});
+    table.number("speed_mps", wind.speed_mps, {0, 150, "m/s"});
     table.number("direction_deg", wind.direction_deg, kYaw);
     table.number("gust", wind.gust, kShare);
     table.integer("seed", wind.seed, 0, std::numeric_limits<int>::max());

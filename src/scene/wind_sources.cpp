@@ -34,7 +34,7 @@ Kind read_kind(TableReader& table) {
 /// The keys of one kind; asking for a key declares it.
 void read_keys(TableReader& table, WindSource& source) {
     const Kind kind = source.kind;
-    table.number("strength_ms", source.strength_ms, kSpeed);
+    table.number("strength_mps", source.strength_mps, kSpeed);
     table.number("radius_m", source.radius_m, kRadius);
     if (kind == Kind::kJet || kind == Kind::kWake || kind == Kind::kWave)
         table.number("yaw_deg", source.where.yaw_deg, kYaw);
@@ -52,7 +52,7 @@ void read_keys(TableReader& table, WindSource& source) {
     }
     if (kind == Kind::kWave) {
         table.number("wavelength_m", source.wavelength_m, {0.5, 10'000, "m"});
-        table.number("travel_ms", source.travel_ms, kSpeed);
+        table.number("travel_mps", source.travel_mps, kSpeed);
     }
 }
 
@@ -60,13 +60,13 @@ void check_keys(const TableReader& table, const WindSource& source) {
     const bool moving = !source.where.path.empty();
     table.require("radius_m");
     if (source.kind == Kind::kRotor) {
-        if (table.has("strength_ms") == table.has("mass_kg"))
+        if (table.has("strength_mps") == table.has("mass_kg"))
             throw table.error("", table.has("mass_kg") ? "both" : "neither",
-                              "either strength_ms or mass_kg");
+                              "either strength_mps or mass_kg");
         if (!moving)
             table.require("height_m");
     } else if (source.kind != Kind::kWake || !moving) {
-        table.require("strength_ms");
+        table.require("strength_mps");
     }
     if (source.kind == Kind::kWake)
         table.require("length_m");

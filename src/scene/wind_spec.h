@@ -17,7 +17,7 @@ inline constexpr double kForever = std::numeric_limits<double>::infinity();
 struct WindArrow {
     std::string id, parent;
     glm::dvec2 root{0, 0}, tip{0, 0};
-    double strength_ms = 0; ///< speed that the push brings the air to
+    double strength_mps = 0; ///< speed that the push brings the air to
     double radius_m = 1;
     double start_s = 0; ///< not before; a child also waits for its parent's gust
     double end_s = kForever;
@@ -35,14 +35,14 @@ struct WindPlace {
 struct WindSource {
     enum class Kind { kRotor, kJet, kWake, kCyclone, kWave, kFan } kind = Kind::kFan;
     WindPlace where;
-    std::optional<double> strength_ms; ///< rotor: by mass_kg; wake: by its path
+    std::optional<double> strength_mps; ///< rotor: by mass_kg; wake: by its path
     double radius_m = 1;
     double reach_m = 0;              ///< where it has died away; 0: by the kind
     std::optional<double> mass_kg;   ///< rotor: what it carries
     std::optional<double> height_m;  ///< rotor: disc above the ground; unset: by its path
     double length_m = 0;             ///< jet: of the driven core, 0: 4 radii; wake: behind the vehicle
     double wavelength_m = 20;        ///< wave
-    std::optional<double> travel_ms; ///< wave: how fast its crests run; unset: strength_ms
+    std::optional<double> travel_mps; ///< wave: how fast its crests run; unset: strength_mps
     double inflow = 0.2;             ///< cyclone: radial speed over tangential
     bool clockwise = false;          ///< cyclone, seen from above
     double start_s = 0, end_s = kForever;
@@ -57,7 +57,7 @@ struct WindObstacle {
 };
 
 struct WindSpec {
-    double speed_ms = 4;
+    double speed_mps = 4;
     double direction_deg = 270; ///< where the wind comes from, as in aviation
     double gust = 0.4;          ///< 0 steady .. 1 violent
     int seed = 7;

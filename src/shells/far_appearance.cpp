@@ -134,7 +134,7 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
     const CanopyLight canopy(table, shared::bend_intensity(speed, wind.w), std::asin(glm::clamp(light.to_sun.y, -1.0f, 1.0f)) * 180 / shared::kPi);
     const float sun_heading = angle_of({light.to_sun.x, light.to_sun.z});
     const float lean_heading = speed > 0 ? angle_of(glm::vec2(wind)) : 0;
-    const glm::vec4 sun(glm::vec3(light.sun), 1);
+    const glm::vec4 sun(light.sun, 1);
     const glm::vec4 sky(shared::even_sky(light), 1);
     constexpr int kTexels = FarAppearance::kElevations * FarAppearance::kAzimuths;
     std::vector<glm::vec4> texels(2 * kTexels);
@@ -149,11 +149,11 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
 }
 
 void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
-    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_) {
+    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && glm::vec4(wind.mean, 0, wind.response) == wind_) {
         return;
     }
     light_ = light;
-    wind_ = wind.mean;
+    wind_ = {wind.mean, 0, wind.response};
     std::vector<glm::vec4> texels;
     for (int n = 0; n < shared::kFarWinds; ++n) {
         const std::vector<glm::vec4> one = canopy_table(set_.far_light, light, {shared::far_wind(wind, n), 0, wind_.w});

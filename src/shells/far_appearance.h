@@ -30,7 +30,7 @@ private:
     gl::Texture table_;
 };
 
-/// The texels of one wind's two layers, layer-major: `wind` is its velocity x, z (m/s) and the grass's response (WindField::mean).
+/// The texels of one wind's two layers, layer-major: `wind` is its velocity x, z (m/s); w: the grass's response.
 [[nodiscard]] std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light, const glm::vec4& wind);
 
 } // namespace sward::shells

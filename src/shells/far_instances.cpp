@@ -58,8 +58,8 @@ LargestShares largest_shares(float canopy, const VisibleBlock& block, const FarQ
         const float at = std::asin(std::min(sine, 0.99999f)) * (shared::kShareSteps / (0.5f * shared::kPi));
         const auto row = static_cast<int>(at);
         const float part = at - static_cast<float>(row);
-        largest.shells = glm::max(largest.shells, glm::mix(query.shares.shells[row], query.shares.shells[row + 1], part));
-        largest.slices = std::max(largest.slices, glm::mix(query.shares.slices[row].x, query.shares.slices[row + 1].x, part));
+        largest.shells = glm::max(largest.shells, glm::mix(query.shares.steps[row].shells, query.shares.steps[row + 1].shells, part));
+        largest.slices = std::max(largest.slices, glm::mix(query.shares.steps[row].slices, query.shares.steps[row + 1].slices, part));
     }
     return largest;
 }
@@ -84,7 +84,7 @@ Span reach(const grass::GrassSet& set, const VisibleBlock& block, const lod::Ban
 /// Cells of a block from `first` to before `end`; none when they are equal.
 struct Cells {
     int first = 0, end = 0;
-    [[nodiscard]] float packed() const { return static_cast<float>(first + 16 * end); }
+    [[nodiscard]] glm::ivec2 range() const { return {first, end}; }
 };
 
 /// Of the block's cells along one axis, those that come within reach while the other coordinate runs over [low, high]; all
@@ -121,7 +121,7 @@ float largest_share(const VisibleBlock& block, glm::vec3 eye, int axis) {
 
 struct Place {
     const VisibleBlock& block;
-    std::size_t index;
+    int index;
     int level;
     Span within;
 };
@@ -138,8 +138,8 @@ void add_shells(std::vector<shared::FarInstance>& out, const Place& at, const gr
     }
     for (int i = count - 1; i >= 0; --i) {
         const float y = level.layer_heights[static_cast<std::size_t>(i)];
-        out.push_back({{y, at.index, x.packed(), z.packed()},
-                       {grass::layer_image(set, level, 0, i, shared::kPlaneId), grass::layer_images(set, level) * shared::kPlanes, 0, at.level}});
+        out.push_back({y, at.index, x.range(), z.range(), grass::layer_image(set, level, 0, i, shared::kPlaneId),
+                       grass::layer_images(set, level) * shared::kPlanes, 0, at.level});
     }
 }
 
@@ -163,8 +163,8 @@ void add_slices(std::vector<shared::FarInstance>& out, const Place& at, const gr
             const float off = plane - eye[axis];
             const Cells along = cells_within(block.corner[1 - axis] - eye[1 - axis], block.cell, {off, off}, at.within);
             if (along.end > 0) {
-                out.push_back({{plane, at.index, along.packed(), 0},
-                               {shared::slice_index(0, axis, slice, count, shared::kPlaneId), 2 * count * shared::kPlanes, axis, at.level}});
+                out.push_back({plane, at.index, along.range(), {0, 0}, shared::slice_index(0, axis, slice, count, shared::kPlaneId),
+                               2 * count * shared::kPlanes, axis, at.level});
             }
         }
     }
@@ -180,7 +180,7 @@ FarList select_far(const grass::GrassSet& set, const std::vector<VisibleBlock>& 
         const LargestShares shown = largest_shares(set.canopy_m, block, query);
         for (std::size_t k = 0; k < set.levels.size(); ++k) {
             const int level = static_cast<int>(k);
-            const Place place{block, index, level, reach(set, block, bands, query, level)};
+            const Place place{block, static_cast<int>(index), level, reach(set, block, bands, query, level)};
             if (place.within.farthest < 0) {
                 continue;
             }

@@ -46,8 +46,8 @@ shared::FarShares fitted_shares(const grass::GrassSet& set) {
     shared::FarShares shares{};
     for (int i = 0; !set.far.empty() && i <= shared::kShareSteps; ++i) {
         const float elevation = 0.5f * shared::kPi * static_cast<float>(i) / shared::kShareSteps;
-        shares.shells[i] = shell_share_at(set, elevation);
-        shares.slices[i] = {slice_share_at(set, elevation), 0, 0, 0};
+        shares.steps[i].shells = shell_share_at(set, elevation);
+        shares.steps[i].slices = slice_share_at(set, elevation);
     }
     return shares;
 }
@@ -57,8 +57,8 @@ shared::FarShares published_shares() {
     for (int i = 0; i <= shared::kShareSteps; ++i) {
         const float elevation_deg = 90.0f * static_cast<float>(i) / shared::kShareSteps;
         const float alpha = 1 - std::sin(elevation_deg * shared::kPi / 180); // 1 - cos(beta); a texel shows its blade or none, so that it is a share of them
-        shares.shells[i] = glm::vec4(1);
-        shares.slices[i] = {elevation_deg < kSlicesBelow_deg ? alpha : 0.0f, 0, 0, 0};
+        shares.steps[i].shells = glm::vec4(1);
+        shares.steps[i].slices = elevation_deg < kSlicesBelow_deg ? alpha : 0.0f;
     }
     return shares;
 }

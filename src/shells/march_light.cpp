@@ -63,15 +63,15 @@ MeanMarch::MeanMarch(const grass::GrassSet& set) : medium_(set.march.medium), lo
 
 glm::vec3 MeanMarch::radiance(const shared::Light& light, const glm::vec4& wind, const glm::vec3& to_eye) const {
     constexpr float kFootprint = 10; // patches
-    const shared::MarchPath path = level_path(medium_.size.y, wind, -to_eye);
-    shared::MarchPlan plan = shared::march_look(medium_, path, {kFootprint * medium_.size.x / 1000, 1000, 1});
+    const shared::MarchPath path = level_path(medium_.canopy_m, wind, -to_eye);
+    shared::MarchPlan plan = shared::march_look(medium_, path, {kFootprint * medium_.side_m / 1000, 1000, 1});
     plan.kind = shared::kMarchColumns;
     shared::march_settle(medium_, plan);
     const float at = std::clamp(plan.elevation / 5, 0.0f, shared::kMarchElevations - 1.001f);
     const auto row = static_cast<std::size_t>(at);
     const float scale = glm::mix(correction_[row], correction_[row + 1], at - static_cast<float>(row));
-    const glm::vec3 turn = shared::bend_turn(shared::kSwayHeight * medium_.size.y, medium_.size.y, glm::vec2(wind), wind.w);
-    const shared::Light here = shared::light_in_sway(light, shared::canopy_sway(look_, turn, glm::vec3(light.to_sun), to_eye));
+    const glm::vec3 turn = shared::bend_turn(shared::kSwayHeight * medium_.canopy_m, medium_.canopy_m, glm::vec2(wind), wind.w);
+    const shared::Light here = shared::light_in_sway(light, shared::canopy_sway(look_, turn, light.to_sun, to_eye));
     const float steepness = shared::march_steepness(medium_, plan, path.way.y);
     shared::GrassSums sums = shared::march_nothing();
     float through = 1;
@@ -82,7 +82,7 @@ glm::vec3 MeanMarch::radiance(const shared::Light& light, const glm::vec4& wind,
         const auto layer = static_cast<std::size_t>(step.layer);
         const glm::vec3 tangent = shared::march_turned(path, step.rest.y, {0, medium_.layers[step.layer].x, 0});
         shared::march_gather(sums, here, light.to_sun.y,
-                             {albedo_[layer] * shared::march_tint(medium_, step.layer, steepness), tangent, step.rest.y / medium_.size.y, through - left});
+                             {albedo_[layer] * shared::march_tint(medium_, step.layer, steepness), tangent, step.rest.y / medium_.canopy_m, through - left});
         through = left;
     }
     const float elevation = std::asin(std::clamp(to_eye.y, 0.0f, 1.0f)) * 180 / shared::kPi;
@@ -122,7 +122,7 @@ shared::Light light_from(const shared::Light& light, float sine) {
     const float flat = glm::length(heading);
     const float level = std::sqrt(std::max(1 - sine * sine, 0.0f));
     const glm::vec2 to = flat > 1e-4f ? heading * (level / flat) : glm::vec2(level, 0);
-    here.to_sun = {to.x, sine, to.y, light.to_sun.w};
+    here.to_sun = {to.x, sine, to.y};
     return here;
 }
 
@@ -135,7 +135,7 @@ MarchLight::MarchLight(const grass::GrassSet& set, bool mesh) : far_light_(set.f
 }
 
 bool MarchLight::is_of(const shared::Light& light, const shared::WindField& wind) const {
-    return mean_.empty() || (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && wind.mean == wind_);
+    return mean_.empty() || (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && glm::vec4(wind.mean, 0, wind.response) == wind_);
 }
 
 void MarchLight::update(const shared::Light& light, const shared::WindField& wind) {
@@ -172,7 +172,7 @@ bool MarchLight::add_part() {
     static_assert(shared::kFarWinds < 4, "a channel each");
     const int sun = parts_ / shared::kFarWinds, gust = parts_ % shared::kFarWinds;
     const shared::Light from = suns_ == 1 ? next_light_ : light_from(next_light_, glm::mix(kLowestSun, 1.0f, static_cast<float>(sun) / (kSuns - 1)));
-    const std::vector<float> part = light_factors(mean_.front(), far_light_, from, {shared::far_wind(next_wind_, gust), 0, next_wind_.mean.w});
+    const std::vector<float> part = light_factors(mean_.front(), far_light_, from, {shared::far_wind(next_wind_, gust), 0, next_wind_.response});
     for (std::size_t i = 0; i < part.size(); ++i) {
         next_[static_cast<std::size_t>(sun) * part.size() + i][gust] = part[i];
     }
@@ -180,7 +180,7 @@ bool MarchLight::add_part() {
         return false;
     }
     light_ = next_light_;
-    wind_ = next_wind_.mean;
+    wind_ = {next_wind_.mean, 0, next_wind_.response};
     parts_ = 0;
     if (!table_.id()) {
         table_ = gl::Texture(GL_RGBA16F, {kAzimuths, kElevations, suns_});

@@ -16,8 +16,8 @@ class MeanMarch {
 public:
     /// Reads `set.march`, whose images may go afterwards.
     explicit MeanMarch(const grass::GrassSet& set);
-    /// Radiance of the grass that is seen on level ground, over the share of the view that it takes. `to_eye`: unit, upwards. `wind`: velocity x, z (m/s)
-    /// and the grass's response (WindField::mean).
+    /// Radiance of the grass that is seen on level ground, over the share of the view that it takes. `to_eye`: unit, upwards. `wind`: velocity x, z (m/s);
+    /// w: the grass's response.
     [[nodiscard]] glm::vec3 radiance(const shared::Light& light, const glm::vec4& wind, const glm::vec3& to_eye) const;
 
 private:

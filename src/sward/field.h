@@ -129,7 +129,7 @@ public:
     /// first. The same eyes and times give the same bits. Going back begins anew. Throws Error(kBadInput) for a number that is not finite or no eye.
     void simulate(double time_s, std::span<const glm::dvec3> eyes, const SimulationLimits& limits = {});
 
-    /// The sun from the next picture on. The far field's light follows within some frames, by a part of its table each.
+    /// The sun from the next picture on. The far field's light and the shadow of the hills follow within some frames, by a part each.
     void set_sun(const Sun& sun);
     /// The mean wind from the present time on: its speed at once, its gusts within seconds, none of which stops a frame. Some time later what
     /// blows is what would blow had the scene begun so.

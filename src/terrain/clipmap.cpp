@@ -106,10 +106,12 @@ void Clipmap::fill(int level) {
     const scene::Heightfield& posts = source_->surface.elevation();
     const auto index = static_cast<std::size_t>(level);
     shared::SurfaceParams params{};
-    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {source_->surface.relief_m(), 0, 0, 0};
-    params.level = {windows_[index].first.x, windows_[index].first.y, level, 0};
-    params.step = {spacing(level), 0, 0, 0};
+    params.posts = {posts.width, posts.height};
+    params.post_m = glm::vec2(posts.spacing_m);
+    params.relief_m = static_cast<float>(source_->surface.relief_m());
+    params.first = windows_[index].first;
+    params.level = level;
+    params.spacing_m = static_cast<float>(spacing(level));
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
     source_->elevation.bind(TEX_ELEVATION);
@@ -136,24 +138,30 @@ void Clipmap::bind() const {
 void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
     const scene::Heightfield& posts = source_->surface.elevation();
     shared::SurfaceParams params{};
-    params.grid = {posts.width, posts.height, posts.spacing_m.x, posts.spacing_m.y};
-    params.relief = {source_->surface.relief_m(), 0, anchor.x, anchor.y};
-    params.step = {0, detail.start_m, detail.zoom, 0};
+    params.posts = {posts.width, posts.height};
+    params.post_m = glm::vec2(posts.spacing_m);
+    params.relief_m = static_cast<float>(source_->surface.relief_m());
+    params.anchor = glm::vec2(anchor);
+    params.detail_from_m = detail.start_m;
+    params.zoom = detail.zoom;
     params_.upload(&params, sizeof(params));
     params_.bind_uniform(BIND_SURFACE);
     source_->elevation.bind(TEX_ELEVATION);
 }
 
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
-    frame.clip_layout.x = levels();
-    frame.clip_layout.w = source_->mask_mode;
-    frame.land = source_->land_frame;
-    frame.mask_place = {glm::vec2((anchor - source_->mask_first) / source_->mask_size), glm::vec2(1.0 / source_->mask_size)};
+    frame.clip_levels = levels();
+    frame.mask_mode = source_->mask_mode;
+    frame.land_texel_m = source_->land_frame.x;
+    frame.land_highest = source_->land_frame.y;
+    frame.land_uneven = source_->land_frame.z;
+    frame.mask_offset = glm::vec2((anchor - source_->mask_first) / source_->mask_size);
+    frame.mask_per_m = glm::vec2(1.0 / source_->mask_size);
     for (int level = 0; level < levels(); ++level) {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.
         const glm::dvec2 offset = glm::fract(anchor / period) + 0.5 / shared::kClipCells;
-        frame.clip[level] = {offset.x, offset.y, 1 / period, spacing(level)};
+        frame.clip[level] = {glm::vec2(offset), static_cast<float>(1 / period), static_cast<float>(spacing(level))};
     }
 }
 

@@ -27,7 +27,7 @@ struct GroundSource {
     gl::Program height_program, surface_program;
     glm::dvec2 mask_first, mask_size; ///< world metres
     int mask_mode;                    ///< kMask*
-    glm::vec4 land_frame;             ///< FrameConstants::land
+    glm::vec4 land_frame;             ///< FrameConstants: land_texel_m, land_highest, land_uneven; unused
 };
 
 /// The ground around the eye as nested grids (geometry clipmap, Losasso & Hoppe 2004): level k has kClipCells posts a side,
@@ -53,7 +53,7 @@ public:
     void bind() const;
     /// For programs with FINE_GROUND, after update(): the posts themselves. `anchor` in world metres.
     void bind_posts(glm::dvec2 anchor, Detail detail);
-    /// Fills clip, clip_layout.x and .w, and mask_place of the frame constants for an anchor (world metres).
+    /// Fills clip, clip_levels, mask_mode, mask_offset and mask_per_m of the frame constants for an anchor (world metres).
     void describe(shared::FrameConstants& frame, glm::dvec2 anchor) const;
 
     [[nodiscard]] int levels() const { return static_cast<int>(windows_.size()); }

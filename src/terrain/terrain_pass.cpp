@@ -149,7 +149,7 @@ void BlockSamples::execute(const std::vector<VisibleBlock>& blocks, bool fine) {
     std::vector<shared::TerrainBlock> places;
     places.reserve(blocks.size());
     for (const VisibleBlock& block : blocks) {
-        places.push_back({{block.corner.x, block.corner.y, block.cell, block.level}});
+        places.push_back({block.corner, block.cell, block.level});
     }
     blocks_.reserve(places.size() * sizeof(shared::TerrainBlock));
     blocks_.upload(places.data(), places.size() * sizeof(shared::TerrainBlock));

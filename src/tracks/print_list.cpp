@@ -36,10 +36,13 @@ Stand stand_of(const scene::TrackFoot& foot, const scene::Path& path, double tim
 
 shared::TrackPrint Print::from(glm::dvec2 corner) const {
     shared::TrackPrint out{};
-    out.now = glm::vec4(glm::vec2(now - corner), turn_now);
-    out.before = glm::vec4(glm::vec2(before - corner), turn_before);
-    out.shape = shape;
-    out.kind = {kind, 0, 0, 0};
+    out.now = {glm::vec2(now - corner), turn_now};
+    out.before = {glm::vec2(before - corner), turn_before};
+    out.half_width_m = shape.x;
+    out.half_depth_m = shape.y;
+    out.underside_m = shape.z;
+    out.load = shape.w;
+    out.kind = kind;
     return out;
 }
 

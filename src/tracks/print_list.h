@@ -27,7 +27,7 @@ struct Ball {
 struct Print {
     glm::dvec2 now{0}, before{0}; ///< x, z (m)
     glm::vec2 turn_now{1, 0}, turn_before{1, 0}; ///< cosine and sine of its yaw
-    glm::vec4 shape{0};           ///< as TrackPrint's
+    glm::vec4 shape{0};           ///< half width; half depth or radius; lowest height of the underside (m); share of its load
     int kind = shared::kPrintBox;
     glm::dvec2 low{0}, high{0};   ///< of what it sweeps, grown by a cell
 

@@ -168,11 +168,14 @@ TrackPass::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t n
             }
             const glm::ivec2 at(n % kRow, n / kRow);
             shared::TrackBlock out{};
-            out.page = {slot, static_cast<int>(work.prints.size()), static_cast<int>(touched.size()), (at.x + 256 * at.y) * shared::kTrackBlock};
-            out.own = {block.place, 0, 0, 0};
+            out.slot = slot;
+            out.first_print = static_cast<int>(work.prints.size());
+            out.prints = static_cast<int>(touched.size());
+            out.first_cell = at * shared::kTrackBlock;
+            out.own = block.place;
             out.beside = {place_of(page.key, at - glm::ivec2(1, 0)), place_of(page.key, at + glm::ivec2(1, 0)), place_of(page.key, at - glm::ivec2(0, 1)),
                           place_of(page.key, at + glm::ivec2(0, 1))};
-            out.ground = glm::vec4(page.slope, 0, 0);
+            out.slope = page.slope;
             for (const Print* print : touched) {
                 work.prints.push_back(print->from(corner));
             }

@@ -99,14 +99,30 @@ void TrackPass::upload_work(std::span<const shared::TrackBlock> blocks) {
     bind_cells();
 }
 
+namespace {
+
+void set_rules(const gl::Program& program, const shared::TrackRules& rules) {
+    program.set("step_rules.cell_m", rules.cell_m);
+    program.set("step_rules.step_s", rules.step_s);
+    program.set("step_rules.damping", rules.damping);
+    program.set("step_rules.recovery_per_s2", rules.recovery_per_s2);
+    program.set("step_rules.wave_mps", rules.wave_mps);
+    program.set("step_rules.rate_wave_mps", rules.rate_wave_mps);
+    program.set("step_rules.wave_gain_m", rules.wave_gain_m);
+    program.set("step_rules.most_wave_mps", rules.most_wave_mps);
+    program.set("step_rules.canopy_m", rules.canopy_m);
+    program.set("step_rules.broken", rules.broken);
+    program.set("step_rules.left", rules.left);
+}
+
+} // namespace
+
 void TrackPass::step(const shared::TrackRules& rules, const Work& work) {
     prints_.reserve(std::max(work.prints.size(), std::size_t{1}) * sizeof(shared::TrackPrint));
     prints_.upload(work.prints.data(), work.prints.size() * sizeof(shared::TrackPrint));
     const auto run = [&](const gl::Program& program, std::size_t entries) {
         program.use();
-        program.set("rules_grid", rules.grid);
-        program.set("rules_waves", rules.waves);
-        program.set("rules_grass", rules.grass);
+        set_rules(program, rules);
         dispatch(program, entries, TRACK_GROUP);
     };
     prints_.bind_storage(BIND_TRACK_PRINTS);
@@ -124,7 +140,7 @@ void TrackPass::step(const shared::TrackRules& rules, const Work& work) {
 void TrackPass::upload_pages(std::span<const int> slots) {
     std::vector<shared::TrackBlock> pages(slots.size());
     for (std::size_t n = 0; n < slots.size(); ++n) {
-        pages[n].page.x = slots[n];
+        pages[n].slot = slots[n];
     }
     upload_work(pages);
 }

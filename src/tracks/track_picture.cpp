@@ -48,7 +48,7 @@ std::optional<Corner> corner_of(const scene::Image& picture) {
 std::vector<glm::vec2> Tracks::lying(PageKey key) const {
     const int slot = pages_.slot_of(key);
     std::vector<std::uint32_t> words;
-    float left = rules_.grass.z;
+    float left = rules_.left;
     if (slot >= 0) {
         words = pass_.get(slot);
     } else if (std::optional<PageContent> content = memory_.look(key)) {

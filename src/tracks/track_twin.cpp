@@ -22,14 +22,14 @@ void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::Tr
         for (int x = 0; x < kSide; ++x) {
             const auto n = static_cast<std::size_t>(z * kSide + x);
             shared::TrackCell next = shared::track_advance(cells[n], changes[n]);
-            const glm::vec2 middle = rules.grid.x * (glm::vec2(x, z) + 0.5f);
+            const glm::vec2 middle = rules.cell_m * (glm::vec2(x, z) + 0.5f);
             bool touched = false;
             for (const shared::TrackPrint& print : prints) {
                 const shared::TrackContact contact = shared::track_contact(rules, print, middle);
                 if (contact.touched == 1) {
                     touched = true;
                     next = shared::track_bent(rules, next, contact, slope);
-                    pressed[n] = shared::track_pressed(rules, pressed[n], contact, print.shape.w);
+                    pressed[n] = shared::track_pressed(rules, pressed[n], contact, print.load);
                 }
             }
             if (touched) { // kept in a word

@@ -22,10 +22,17 @@ constexpr double kNearEye_m = 1e4;     // pages that the memory holds come back 
 
 shared::TrackRules rules_of(const scene::TrackSpec& spec, double canopy_m) {
     shared::TrackRules rules{};
-    rules.grid = glm::vec4(glm::dvec4(spec.cell_m, kStep_s, spec.damping, spec.recovery_per_s2));
-    rules.waves = glm::vec4(glm::dvec4(spec.wave_ms, spec.rate_wave_ms, spec.wave_gain_m, 0));
-    rules.waves.w = shared::track_greatest_wave(rules.grid.x, rules.grid.y, rules.grid.w);
-    rules.grass = glm::vec4(glm::dvec4(canopy_m, spec.broken, 1, 0));
+    rules.cell_m = static_cast<float>(spec.cell_m);
+    rules.step_s = static_cast<float>(kStep_s);
+    rules.damping = static_cast<float>(spec.damping);
+    rules.recovery_per_s2 = static_cast<float>(spec.recovery_per_s2);
+    rules.wave_mps = static_cast<float>(spec.wave_mps);
+    rules.rate_wave_mps = static_cast<float>(spec.rate_wave_mps);
+    rules.wave_gain_m = static_cast<float>(spec.wave_gain_m);
+    rules.most_wave_mps = shared::track_greatest_wave(rules.cell_m, rules.step_s, rules.recovery_per_s2);
+    rules.canopy_m = static_cast<float>(canopy_m);
+    rules.broken = static_cast<float>(spec.broken);
+    rules.left = 1;
     return rules;
 }
 
@@ -57,7 +64,7 @@ void Tracks::forget() {
 void Tracks::restart() {
     forget();
     done_ = epoch_ = 0;
-    rules_.grass.z = 1;
+    rules_.left = 1;
     if (first_) {
         const scene::Image picture = *first_;
         begin_with(picture, first_name_);
@@ -99,7 +106,7 @@ void Tracks::follow_epoch(double time_s) {
             page.shown = false;
         }
     }
-    rules_.grass.z = shared::track_left(static_cast<float>(time_s - static_cast<double>(epoch_) * span), static_cast<float>(spec_.lasting_s));
+    rules_.left = shared::track_left(static_cast<float>(time_s - static_cast<double>(epoch_) * span), static_cast<float>(spec_.lasting_s));
 }
 
 void Tracks::step(std::int64_t number, bool full) {
@@ -114,7 +121,7 @@ void Tracks::step(std::int64_t number, bool full) {
     stepped_ += work.moving.size() + work.resting.size();
     for (const auto* blocks : {&work.moving, &work.resting}) {
         for (const shared::TrackBlock& block : *blocks) {
-            pages_.slots()[static_cast<std::size_t>(block.page.x)].shown = false;
+            pages_.slots()[static_cast<std::size_t>(block.slot)].shown = false;
         }
     }
 }
@@ -245,9 +252,13 @@ void Tracks::show() {
 shared::TrackField Tracks::field(glm::dvec2 anchor) const {
     shared::TrackField out{};
     const PageKey page = pages_.key_at(anchor);
-    out.place = glm::vec4(glm::vec2(anchor - pages_.corner(page)), static_cast<float>(1 / spec_.cell_m), rules_.grass.z);
-    out.page = {page.x, page.y, pages_.used() > 0 ? pages_.table_size() - 1 : -1,
-                static_cast<int>(1000 * spec_.wave_ms) + 65536 * static_cast<int>(1000 * spec_.wave_gain_m)};
+    out.place = glm::vec2(anchor - pages_.corner(page));
+    out.per_m = static_cast<float>(1 / spec_.cell_m);
+    out.left = rules_.left;
+    out.page = {page.x, page.y};
+    out.table_mask = pages_.used() > 0 ? pages_.table_size() - 1 : -1;
+    out.wave_mps = rules_.wave_mps;
+    out.wave_gain_m = rules_.wave_gain_m;
     glm::dvec2 low(1e30), high(-1e30);
     for (const Pages::Page& one : pages_.slots()) {
         if (one.used) {
@@ -255,7 +266,8 @@ shared::TrackField Tracks::field(glm::dvec2 anchor) const {
             high = glm::max(high, pages_.corner(one.key) + pages_.side_m());
         }
     }
-    out.bounds = glm::vec4(glm::vec2(low - anchor), glm::vec2(high - anchor));
+    out.least = glm::vec2(low - anchor);
+    out.most = glm::vec2(high - anchor);
     return out;
 }
 
@@ -268,7 +280,7 @@ Tracks::Sample Tracks::at(double x, double z) const {
         const Block& block = pages_.slots()[static_cast<std::size_t>(slot)].blocks[static_cast<std::size_t>(shared::track_block_of(at))];
         const glm::vec4 cell = pass_.cell(slot, block.place, at);
         sample.theta = glm::vec2(cell);
-        sample.pressed = glm::vec2(cell.z, cell.w) * rules_.grass.z;
+        sample.pressed = glm::vec2(cell.z, cell.w) * rules_.left;
     }
     return sample;
 }

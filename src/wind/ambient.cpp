@@ -15,7 +15,7 @@ constexpr double kTwoPi = 6.283185307179586;
 // Turns of each group while the strongest gust turns over once: no two in a simple ratio, so that the sum never repeats.
 constexpr double kRates[kGustGroups] = {0.11, -0.17, 0.0687};
 constexpr double kDrawn = 0.25; // share of a turn-over in which the fluid is drawn to the synthesised gusts
-constexpr float kAnySpeed = shared::kWindCeiling_ms;
+constexpr float kAnySpeed = shared::kWindCeiling_mps;
 } // namespace
 
 AmbientTile::AmbientTile(const scene::WindSpec& spec) : AmbientTile(spec, nullptr, 0) {}
@@ -23,11 +23,11 @@ AmbientTile::AmbientTile(const scene::WindSpec& spec) : AmbientTile(spec, nullpt
 AmbientTile::AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first) : AmbientTile(spec, other.spectrum_, first) {}
 
 AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first)
-    : seed_(static_cast<std::uint64_t>(spec.seed)), strength_ms_(kGustShare * spec.gust * spec.speed_ms), spectrum_(std::move(spectrum)) {
+    : seed_(static_cast<std::uint64_t>(spec.seed)), strength_mps_(kGustShare * spec.gust * spec.speed_mps), spectrum_(std::move(spectrum)) {
     tag_.step_s = kStep_s;
     tag_.cells = kCells;
     tag_.cell_m = kCell_m;
-    if (strength_ms_ > 0) {
+    if (strength_mps_ > 0) {
         if (!spectrum_) {
             spectrum_ = std::make_shared<const GustSpectrum>(gust_spectrum(kCells, kPeakWaves, seed_));
         }
@@ -40,7 +40,7 @@ AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const Gust
 
 /// Gusts turn over in the time that one of them takes to pass its own length at its own speed.
 std::array<double, kGustGroups> AmbientTile::phases(std::int64_t state) const {
-    const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_ms_;
+    const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_mps_;
     std::array<double, kGustGroups> out{};
     for (std::size_t g = 0; g < out.size(); ++g) {
         out[g] = kTwoPi * std::fmod(kRates[g] * static_cast<double>(state) * kStep_s / turn_over_s, 1.0);
@@ -52,11 +52,11 @@ void AmbientTile::begin(std::int64_t first) {
     const bool known = !initial_cells_.empty() && tag_.first == first;
     tag_.latest = tag_.first = first;
     fluid_.reset();
-    if (strength_ms_ <= 0 || known) {
+    if (strength_mps_ <= 0 || known) {
         return;
     }
     spectrum_->velocities(phases(first), u_, v_);
-    const auto strength = static_cast<float>(strength_ms_);
+    const auto strength = static_cast<float>(strength_mps_);
     for (std::size_t i = 0; i < u_.size(); ++i) {
         u_[i] *= strength;
         v_[i] *= strength;
@@ -73,7 +73,7 @@ void AmbientTile::begin(std::int64_t first) {
 }
 
 void AmbientTile::step() {
-    if (strength_ms_ > 0) {
+    if (strength_mps_ > 0) {
         if (!fluid_) {
             if (!target_.id()) {
                 target_ = gl::Buffer(kGustGroups * kCells * kCells * sizeof(glm::vec2));
@@ -99,12 +99,12 @@ void AmbientTile::step() {
 }
 
 void AmbientTile::apply_forces(const FluidGrid& grid) {
-    const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_ms_;
+    const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_mps_;
     const std::array<double, kGustGroups> now = phases(tag_.latest + 1);
-    glm::vec4 cosines(0, 0, 0, 1 - std::exp(-kStep_s / (kDrawn * turn_over_s))), sines(0, 0, 0, strength_ms_);
+    glm::vec4 cosines(0, 0, 0, 1 - std::exp(-kStep_s / (kDrawn * turn_over_s))), sines(0, 0, 0, strength_mps_);
     for (int g = 0; g < kGustGroups; ++g) {
-        cosines[g] = static_cast<float>(strength_ms_ * std::cos(now[static_cast<std::size_t>(g)]));
-        sines[g] = static_cast<float>(strength_ms_ * std::sin(now[static_cast<std::size_t>(g)]));
+        cosines[g] = static_cast<float>(strength_mps_ * std::cos(now[static_cast<std::size_t>(g)]));
+        sines[g] = static_cast<float>(strength_mps_ * std::sin(now[static_cast<std::size_t>(g)]));
     }
     grid.u->bind_storage(BIND_WIND_U);
     grid.v->bind_storage(BIND_WIND_V);

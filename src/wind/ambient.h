@@ -27,7 +27,7 @@ public:
     AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first);
 
     /// Root mean square of the gusts (m/s a component); 0: there are none, and nothing is ever stepped.
-    [[nodiscard]] double strength_ms() const { return strength_ms_; }
+    [[nodiscard]] double strength_mps() const { return strength_mps_; }
     /// One step.
     void step();
     /// Begins anew with the synthesised gusts of state `first`.
@@ -41,13 +41,13 @@ public:
     [[nodiscard]] bool active() const override { return true; }
     bool fill_solids(const FluidGrid&, bool) override { return false; }
     void apply_forces(const FluidGrid& grid) override;
-    [[nodiscard]] double loudest_ms() const override { return 0; }
+    [[nodiscard]] double loudest_mps() const override { return 0; }
 
 private:
     AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first);
     [[nodiscard]] std::array<double, kGustGroups> phases(std::int64_t state) const;
     std::uint64_t seed_;
-    double strength_ms_;
+    double strength_mps_;
     StateTag tag_;
     std::shared_ptr<const GustSpectrum> spectrum_; ///< null where there are no gusts
     std::vector<float> u_, v_; ///< the first state

@@ -29,7 +29,7 @@ std::vector<Span> arrow_spans(const std::vector<scene::WindArrow>& arrows) {
                 continue;
             const std::size_t parent = index.at(arrow.parent);
             const double length = glm::distance(arrows[parent].root, arrows[parent].tip);
-            const double flight = arrows[parent].strength_ms > 0 ? length / arrows[parent].strength_ms : scene::kForever;
+            const double flight = arrows[parent].strength_mps > 0 ? length / arrows[parent].strength_mps : scene::kForever;
             span.start_s = std::max(span.start_s, spans[parent].start_s + flight);
             span.end_s = std::min(span.end_s, spans[parent].end_s + flight);
         }

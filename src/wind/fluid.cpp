@@ -51,8 +51,8 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     require_room(settings_.cells);
     lay_out_levels();
     const std::size_t cells = static_cast<std::size_t>(settings_.cells) * settings_.cells;
-    const auto last = constants_.level_plan[constants_.inner.z - 1];
-    const std::size_t all = static_cast<std::size_t>(last.z) + static_cast<std::size_t>(last.x) * last.x;
+    const shared::WindLevel& last = constants_.levels[constants_.level_count - 1];
+    const std::size_t all = static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.cells) * last.cells;
     for (gl::Buffer* buffer : {&u_, &v_, &u_carried_, &v_carried_}) {
         *buffer = gl::Buffer(cells * sizeof(float));
         buffer->clear_to_zero();
@@ -90,29 +90,38 @@ void Fluid::lay_out_levels() {
         side = (n - 2) / halvings * halvings;
     }
     const int rim = (n - side) / 2;
-    constants_.plan = {n, 0, 0, 0};
+    constants_.cells = n;
     const double cell = settings_.cell_m, step = settings_.step_s;
-    constants_.size = glm::vec4(cell, 1 / cell, step, step / cell);
+    constants_.cell_m = static_cast<float>(cell);
+    constants_.per_m = static_cast<float>(1 / cell);
+    constants_.step_s = static_cast<float>(step);
+    constants_.step_per_m = static_cast<float>(step / cell);
     double diffusion = settings_.viscosity_m2s * step / (cell * cell);
     if (diffusion > kStableDiffusion) {
         base::log_warning(fmt::format("wind.viscosity_m2s: found {}, expected at most {:.4g} for this cell_m and step_s; that is used",
                                       settings_.viscosity_m2s, kStableDiffusion * cell * cell / step));
         diffusion = kStableDiffusion;
     }
-    constants_.rates = glm::vec4(settings_.confinement, diffusion, 1 / (1 + settings_.dissipation_per_s * step), shared::kWindCeiling_ms);
-    const double layer = std::min(kRimCells, side / 8.0);
-    constants_.mean = glm::vec4(glm::vec2(settings_.mean_ms), layer, 1 - std::exp(-kRimRate_per_s * step));
+    constants_.confinement = static_cast<float>(settings_.confinement);
+    constants_.diffusion = static_cast<float>(diffusion);
+    constants_.kept = static_cast<float>(1 / (1 + settings_.dissipation_per_s * step));
+    constants_.brake_mps = shared::kWindCeiling_mps;
+    constants_.mean = glm::vec2(settings_.mean_mps);
+    constants_.rim_cells = static_cast<float>(std::min(kRimCells, side / 8.0));
+    constants_.rim_share = static_cast<float>(1 - std::exp(-kRimRate_per_s * step));
     int level = 0, first = 0;
     for (;; ++level) {
         const int row = level == 0 ? n : side;
-        constants_.level_plan[level] = {side, row, first, 0};
+        constants_.levels[level] = {{0, 0}, side, row, first, 0, 0, 0};
         first += row * row;
         if ((level > 0 && side <= WIND_SOLVE_SIDE / 2) || side % 2 != 0 || level + 1 == shared::kMaxWindLevels) {
             break;
         }
         side /= 2;
     }
-    constants_.inner = {rim, constants_.level_plan[0].x, level + 1, 0};
+    constants_.inner_first = rim;
+    constants_.inner_cells = constants_.levels[0].cells;
+    constants_.level_count = level + 1;
     if (level == 0 || side > WIND_SOLVE_SIDE) { // no such size leaves Fluid's callers: cells are 16 to 4096, tiles powers of two
         throw base::Error(base::ExitCode::kFailure, fmt::format("wind: found a grid of {} cells, expected one that halves", n));
     }
@@ -168,10 +177,8 @@ FluidGrid Fluid::grid() const {
 }
 
 void Fluid::upload_constants() {
-    const glm::ivec2 offset = grid().offset;
-    constants_.plan.y = offset.x;
-    constants_.plan.z = offset.y;
-    constants_.level_shift[0] = {offset + constants_.inner.x, 0, 0};
+    constants_.stored = grid().offset;
+    constants_.levels[0].stored = constants_.stored + constants_.inner_first;
     constants_buffer_.upload(&constants_, sizeof(constants_));
     constants_buffer_.bind_uniform(BIND_WIND_GRID);
     rim_buffer_.bind_uniform(BIND_WIND_FIELD);
@@ -240,8 +247,8 @@ void Fluid::publish(bool fresh) {
 
 void Fluid::build_weights() {
     bind_poisson();
-    for (int level = 0; level < constants_.inner.z; ++level) {
-        dispatch("poisson_weights", glm::ivec2(constants_.level_plan[level].x), level);
+    for (int level = 0; level < constants_.level_count; ++level) {
+        dispatch("poisson_weights", glm::ivec2(constants_.levels[level].cells), level);
     }
 }
 
@@ -265,7 +272,7 @@ void Fluid::guess_pressure() {
         bind_poisson();
         pressure_.bind_storage(BIND_WIND_PRESSURE);
         earlier_pressure_.bind_storage(BIND_WIND_EARLIER_PRESSURE);
-        dispatch("poisson_guess", glm::ivec2(constants_.inner.y));
+        dispatch("poisson_guess", glm::ivec2(constants_.inner_cells));
     } else {
         glCopyNamedBufferSubData(pressure_.id(), earlier_pressure_.id(), 0, 0, static_cast<GLsizeiptr>(pressure_.bytes()));
     }
@@ -273,8 +280,8 @@ void Fluid::guess_pressure() {
 
 /// phi from the residual: a V-cycle with one red-black sweep down and one up.
 void Fluid::cycle() {
-    const int coarsest = constants_.inner.z - 1;
-    const auto cells = [&](int level) { return glm::ivec2(constants_.level_plan[level].x); };
+    const int coarsest = constants_.level_count - 1;
+    const auto cells = [&](int level) { return glm::ivec2(constants_.levels[level].cells); };
     const auto half = [&](int level) { return glm::ivec2((cells(level).x + 1) / 2, cells(level).y); };
     for (int level = 0; level < coarsest; ++level) {
         dispatch("poisson_begin", cells(level), level);
@@ -295,7 +302,7 @@ int Fluid::iterations(bool solids_changed) const {
 /// Conjugate gradients with the multigrid as preconditioner: alone it converges in free air, but may diverge beside walls thinner
 /// than coarse cells. Begins with the last step's pressure. A fixed number of iterations: nothing waits for a norm.
 void Fluid::solve(int iterations) {
-    const glm::ivec2 inner(constants_.inner.y);
+    const glm::ivec2 inner(constants_.inner_cells);
     const int groups = ((inner.x + WIND_GROUP_X - 1) / WIND_GROUP_X) * ((inner.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y);
     scalars_.clear_to_zero();
     scalars_.bind_storage(BIND_WIND_SCALARS);
@@ -316,22 +323,22 @@ void Fluid::solve(int iterations) {
     }
 }
 
-void Fluid::set_mean(glm::dvec2 mean_ms) {
-    settings_.mean_ms = mean_ms;
-    constants_.mean = glm::vec4(glm::vec2(mean_ms), constants_.mean.z, constants_.mean.w); // uploaded by step()
+void Fluid::set_mean(glm::dvec2 mean_mps) {
+    settings_.mean_mps = mean_mps;
+    constants_.mean = glm::vec2(mean_mps); // uploaded by step()
 }
 
-void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_ms) {
+void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_mps) {
     time_s_ = time_s;
-    const double loudest = inputs.loudest_ms();
-    const double limit = std::max(calm_ms, std::isfinite(loudest) ? 1.2 * loudest : calm_ms);
-    constants_.rates.w = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_ms)));
+    const double loudest = inputs.loudest_mps();
+    const double limit = std::max(calm_mps, std::isfinite(loudest) ? 1.2 * loudest : calm_mps);
+    constants_.brake_mps = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_mps)));
     rim_buffer_.upload(&rim, sizeof(rim));
     upload_constants();
     const bool solids_changed = inputs.fill_solids(grid(), moved_ || !solids_known_);
     storage_barrier();
-    if (solids_changed && constants_.plan.w == 0) {
-        constants_.plan.w = 1;
+    if (solids_changed && constants_.has_solids == 0) {
+        constants_.has_solids = 1;
         upload_constants();
     }
     if (solids_changed || moved_ || !solids_known_) {
@@ -345,7 +352,7 @@ void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& ri
     guess_pressure();
     bind_poisson();
     pressure_.bind_storage(BIND_WIND_PRESSURE);
-    dispatch("divergence", glm::ivec2(constants_.inner.y));
+    dispatch("divergence", glm::ivec2(constants_.inner_cells));
     solve(iterations(solids_changed));
     ++steps_;
     bind_poisson();

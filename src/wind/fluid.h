@@ -22,7 +22,7 @@ struct FluidSettings {
     double confinement = 0; ///< strength of W2's vorticity confinement, no unit; keeps small eddies, costs a tenth of a step
     double viscosity_m2s = 0;
     double dissipation_per_s = 0; ///< of what differs from the mean wind
-    glm::dvec2 mean_ms{0};        ///< mean wind (m/s)
+    glm::dvec2 mean_mps{0};        ///< mean wind (m/s)
     int cycles = 1; ///< iterations of the pressure solve: each divides the divergence by seven to thirty and costs a third of a
                     ///< step. More where the last pressure is no good guess: see Fluid::iterations
 };
@@ -38,21 +38,21 @@ public:
     /// Replaces all velocities (m/s), `cells` squared each, in storage order; publishes them as the first state.
     void set_state(std::span<const float> u, std::span<const float> v);
     /// Another mean wind (m/s) from the next step on.
-    void set_mean(glm::dvec2 mean_ms);
+    void set_mean(glm::dvec2 mean_mps);
     /// Moves the window so that its north-west cell is world cell `first`. Cells that stay keep their bits; those that come
     /// take the ambient wind of `rim`, whose anchor is the new corner.
     void move_to(glm::ivec2 first, const shared::WindField& rim);
     /// One step, to `time_s`. `rim`: the ambient wind at the open rim at that time, anchored at the corner; unused when periodic.
-    /// `calm_ms`: speed that the ambient wind may reach; faster air is braked unless the inputs aim for more.
-    void step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_ms);
+    /// `calm_mps`: speed that the ambient wind may reach; faster air is braked unless the inputs aim for more.
+    void step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_mps);
 
     [[nodiscard]] FluidGrid grid() const;
     [[nodiscard]] const FluidSettings& settings() const { return settings_; }
     /// vec4 a cell at storage places: velocity at the centre, previous state xy, latest zw.
     [[nodiscard]] const gl::Buffer& cells() const { return published_; }
     /// The solved cells are [first, first + side) on both axes; the rest is rim.
-    [[nodiscard]] int inner_first() const { return constants_.inner.x; }
-    [[nodiscard]] int inner_side() const { return constants_.inner.y; }
+    [[nodiscard]] int inner_first() const { return constants_.inner_first; }
+    [[nodiscard]] int inner_side() const { return constants_.inner_cells; }
     void reload();
 
 private:

@@ -47,7 +47,7 @@ public:
     virtual void apply_forces(const FluidGrid& grid) = 0;
     /// The highest speed (m/s) that the present forces and solids aim for. The solver lets the air reach it; what is
     /// faster than that and the ambient wind explain is braked within a second.
-    [[nodiscard]] virtual double loudest_ms() const = 0;
+    [[nodiscard]] virtual double loudest_mps() const = 0;
 };
 
 } // namespace sward::wind

@@ -30,30 +30,43 @@ glm::dvec2 heading(double yaw_deg) {
     return {std::sin(yaw_deg * kDegree), -std::cos(yaw_deg * kDegree)};
 }
 
-glm::vec4 placed(glm::dvec2 place, glm::dvec2 origin, glm::dvec2 along) {
-    return {glm::vec2(place - origin), glm::vec2(along)};
+void set_place(WindForce& force, glm::dvec2 place, glm::dvec2 along) {
+    force.place = glm::vec2(place);
+    force.along = glm::vec2(along);
+}
+
+/// What pushes along its direction.
+void set_push(WindForce& force, int kind, double speed, double rate_per_s) {
+    force.kind = kind;
+    force.speed_mps = static_cast<float>(speed);
+    force.rate_per_s = static_cast<float>(rate_per_s);
+}
+
+void set_extent(WindForce& force, double radius_m, double reach_m) {
+    force.radius_m = static_cast<float>(radius_m);
+    force.reach_m = static_cast<float>(reach_m);
 }
 
 WindForce arrow_force(const scene::WindArrow& arrow, glm::dvec2 origin, double least_m) {
     WindForce force{};
     const double radius = std::max(arrow.radius_m, least_m);
-    force.place = placed(arrow.tip, origin, glm::normalize(arrow.tip - arrow.root));
-    force.extent = {radius, 0, 0, 0};
-    force.push = {arrow.strength_ms, kArrowRate * arrow.strength_ms / (2 * radius), shared::kForceDisc, 0};
+    set_place(force, arrow.tip - origin, glm::normalize(arrow.tip - arrow.root));
+    set_extent(force, radius, 0);
+    set_push(force, shared::kForceDisc, arrow.strength_mps, kArrowRate * arrow.strength_mps / (2 * radius));
     return force;
 }
 
 /// Kind and lengths of a radial or tangential source of one speed.
 void set_ring(WindForce& force, int kind, double speed, double radius, double reach) {
-    force.extent = {radius, reach > 0 ? reach : kReachRadii * radius, 0, 0};
-    force.push = {speed, 0, kind, 0};
+    set_extent(force, radius, reach > 0 ? reach : kReachRadii * radius);
+    set_push(force, kind, speed, 0);
 }
 
 } // namespace
 
 Outwash rotor_outwash(const scene::WindSource& rotor, double height_m) {
     const double area = kPi * rotor.radius_m * rotor.radius_m;
-    const double wake = rotor.strength_ms ? *rotor.strength_ms
+    const double wake = rotor.strength_mps ? *rotor.strength_mps
                                           : 2 * std::sqrt(*rotor.mass_kg * kGravity / (2 * kAirDensity * area));
     const double jet_radius = kContraction * rotor.radius_m;
     const double slowed = std::hypot(1.0, std::max(height_m, 0.0) / (kCoreDiameters * 2 * jet_radius));
@@ -73,15 +86,15 @@ void ForceList::set_arrows(std::vector<scene::WindArrow> arrows) {
 WindForce ForceList::force_of(const scene::WindSource& source, double time_s, glm::dvec2 origin) const {
     const Carried at = carried_at(source.where, paths_, time_s);
     const double radius = source.radius_m;
-    double strength = source.strength_ms.value_or(0);
+    double strength = source.strength_mps.value_or(0);
     WindForce force{};
-    force.place = placed(at.place, origin, heading(at.yaw_deg));
+    set_place(force, at.place - origin, heading(at.yaw_deg));
     switch (source.kind) {
     case Kind::kRotor: {
         const double ground = at.agl ? 0 : ground_(at.place.x, at.place.y);
         const Outwash outwash = rotor_outwash(source, source.height_m.value_or(at.height_m - ground));
-        set_ring(force, shared::kForceRing, outwash.speed_ms, outwash.radius_m, source.reach_m);
-        force.extent.y = std::max(force.extent.y, static_cast<float>(1.5 * outwash.radius_m));
+        set_ring(force, shared::kForceRing, outwash.speed_mps, outwash.radius_m, source.reach_m);
+        force.reach_m = std::max(force.reach_m, static_cast<float>(1.5 * outwash.radius_m));
         break;
     }
     case Kind::kFan:
@@ -89,32 +102,33 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         break;
     case Kind::kCyclone:
         set_ring(force, shared::kForceVortex, strength, radius, source.reach_m);
-        force.push.y = static_cast<float>((kVortexRate + kInflowRate * source.inflow) * std::max(strength / radius, 0.5));
+        force.rate_per_s = static_cast<float>((kVortexRate + kInflowRate * source.inflow) * std::max(strength / radius, 0.5));
         // Its sign is the turn: an inflow of 0 keeps one.
-        force.push.w = static_cast<float>(std::max(source.inflow, 1e-6) * (source.clockwise ? 1 : -1));
-        force.motion = glm::vec4(glm::vec2(at.velocity), 0, 0);
+        force.inflow = static_cast<float>(std::max(source.inflow, 1e-6) * (source.clockwise ? 1 : -1));
+        force.velocity = glm::vec2(at.velocity);
         break;
     case Kind::kJet: {
         const double length = source.length_m > 0 ? source.length_m : kJetRadii * radius;
-        force.extent = {radius, length, 0, 0};
-        force.push = {strength, kJetRate * strength / length, shared::kForceStrip, 0};
+        set_extent(force, radius, length);
+        set_push(force, shared::kForceStrip, strength, kJetRate * strength / length);
         break;
     }
     case Kind::kWake: {
         const double speed = glm::length(at.velocity);
         if (speed > 1e-3)
-            force.place = placed(at.place, origin, at.velocity / speed);
-        if (!source.strength_ms)
+            set_place(force, at.place - origin, at.velocity / speed);
+        if (!source.strength_mps)
             strength = speed;
-        force.extent = {radius, source.length_m, 0, 0};
-        force.push = {strength, kWakeRate * strength / radius, shared::kForceWake, 0};
+        set_extent(force, radius, source.length_m);
+        set_push(force, shared::kForceWake, strength, kWakeRate * strength / radius);
         break;
     }
     case Kind::kWave: {
         const double k = 2 * kPi / source.wavelength_m;
-        force.extent = {radius, radius, 0, 0};
-        force.push = {strength, 0, shared::kForceWave, 0};
-        force.motion = {k, -std::fmod(k * source.travel_ms.value_or(strength) * time_s, 2 * kPi), 0, 0};
+        set_extent(force, radius, radius);
+        set_push(force, shared::kForceWave, strength, 0);
+        force.wave_number = static_cast<float>(k);
+        force.wave_phase = static_cast<float>(-std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * kPi));
         break;
     }
     }
@@ -124,40 +138,40 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
 std::vector<WindForce> ForceList::at(double time_s, glm::dvec2 origin, double least_m) const {
     std::vector<WindForce> forces;
     for (std::size_t i = 0; i < arrows_.size(); ++i)
-        if (time_s >= spans_[i].start_s && time_s < spans_[i].end_s && arrows_[i].strength_ms > 0)
+        if (time_s >= spans_[i].start_s && time_s < spans_[i].end_s && arrows_[i].strength_mps > 0)
             forces.push_back(arrow_force(arrows_[i], origin, least_m));
     for (const scene::WindSource& source : sources_) {
         if (time_s < source.start_s || time_s >= source.end_s)
             continue;
         WindForce force = force_of(source, time_s, origin);
-        force.extent.x = std::max(force.extent.x, static_cast<float>(least_m));
-        if (force.push.x > 0)
+        force.radius_m = std::max(force.radius_m, static_cast<float>(least_m));
+        if (force.speed_mps > 0)
             forces.push_back(force);
     }
     return forces;
 }
 
 glm::vec4 force_bounds(const WindForce& force) {
-    const glm::vec2 place(force.place), along(force.place.z, force.place.w);
-    const int kind = static_cast<int>(force.push.z);
+    const glm::vec2 place = force.place, along = force.along;
+    const int kind = force.kind;
     glm::vec2 other = place;
-    float reach = force.extent.x;
+    float reach = force.radius_m;
     if (kind == shared::kForceStrip)
-        other = place + along * force.extent.y;
+        other = place + along * force.reach_m;
     else if (kind == shared::kForceWake) {
-        other = place - along * force.extent.y;
-        reach *= 2 * shared::wake_at(force.extent.y / force.extent.x).y;
+        other = place - along * force.reach_m;
+        reach *= 2 * shared::wake_at(force.reach_m / force.radius_m).y;
     } else if (kind != shared::kForceDisc)
-        reach = force.extent.y;
+        reach = force.reach_m;
     return {glm::min(place, other) - reach, glm::max(place, other) + reach};
 }
 
 bool relaxes(const WindForce& force) {
-    return force.push.y > 0;
+    return force.rate_per_s > 0;
 }
 
 bool brings_air(const WindForce& force) {
-    return static_cast<int>(force.push.z) >= shared::kForceRing;
+    return force.kind >= shared::kForceRing;
 }
 
 } // namespace sward::wind

@@ -16,7 +16,7 @@ using GroundHeight = std::function<double(double x, double z)>;
 
 /// Where the air meets the ground below a rotor.
 struct Outwash {
-    double speed_ms = 0;
+    double speed_mps = 0;
     double radius_m = 0; ///< of the ring where it is highest
 };
 

@@ -11,10 +11,15 @@ namespace sward::wind {
 
 PublishedScheme::PublishedScheme(const FluidSettings& settings) : cells_(settings.cells), constants_(sizeof(shared::WindGrid)) {
     shared::WindGrid grid{};
-    grid.plan = {cells_, 0, 0, 0};
-    grid.inner = {0, cells_, 1, 0};
-    grid.size = glm::vec4(settings.cell_m, 1 / settings.cell_m, settings.step_s, settings.step_s / settings.cell_m);
-    grid.rates = glm::vec4(settings.confinement, 0, 1 / (1 + settings.dissipation_per_s * settings.step_s), shared::kWindCeiling_ms);
+    grid.cells = grid.inner_cells = cells_;
+    grid.level_count = 1;
+    grid.cell_m = static_cast<float>(settings.cell_m);
+    grid.per_m = static_cast<float>(1 / settings.cell_m);
+    grid.step_s = static_cast<float>(settings.step_s);
+    grid.step_per_m = static_cast<float>(settings.step_s / settings.cell_m);
+    grid.confinement = static_cast<float>(settings.confinement);
+    grid.kept = static_cast<float>(1 / (1 + settings.dissipation_per_s * settings.step_s));
+    grid.brake_mps = shared::kWindCeiling_mps;
     constants_.upload(&grid, sizeof(grid));
     for (const char* name : {"vorticity", "published_advect", "published_confine", "published_divergence", "published_jacobi", "published_project"}) {
         programs_.emplace(name, gl::Program(std::string("wind ") + name, {std::string("wind/") + name + ".comp"}));

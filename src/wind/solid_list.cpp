@@ -16,10 +16,6 @@ using Kind = scene::WindObstacle::Kind;
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
-int kind_of(const WindSolid& solid) {
-    return static_cast<int>(solid.motion.w);
-}
-
 } // namespace
 
 SolidList::SolidList(const scene::Scene& scene, const Meshes& meshes)
@@ -61,21 +57,25 @@ std::vector<WindSolid> SolidList::at(double time_s, glm::dvec2 origin) const {
         const Carried carried = carried_at(obstacle.where, paths_, time_s);
         const double yaw = carried.yaw_deg * kDegree;
         WindSolid solid{};
-        solid.place = glm::vec4(glm::vec2(carried.place - origin), std::cos(yaw), std::sin(yaw));
-        solid.motion = glm::vec4(glm::vec2(carried.velocity), carried.turn_rad_s, 0);
+        solid.place = glm::vec2(carried.place - origin);
+        solid.heading = {std::cos(yaw), std::sin(yaw)};
+        solid.velocity = glm::vec2(carried.velocity);
+        solid.turn_rad_s = static_cast<float>(carried.turn_rad_s);
         if (obstacle.kind == Kind::kMesh) {
             const Print& print = prints_[print_of_[i]];
-            solid.shape = {print.corner_m.x, print.corner_m.y, print.bit_m, 0};
-            solid.bitmap = {static_cast<int>(print.first_word), print.width, print.height, 0};
-            solid.motion.w = shared::kSolidFootprint;
+            solid.corner = print.corner_m;
+            solid.bit_m = static_cast<float>(print.bit_m);
+            solid.first_word = static_cast<int>(print.first_word);
+            solid.bits = {print.width, print.height};
+            solid.kind = shared::kSolidFootprint;
         } else if (obstacle.kind == Kind::kBox) {
             const glm::dvec2 half = glm::max(0.5 * obstacle.size, glm::dvec2(0.5 * cell_m_));
-            solid.shape = {half.x, half.y, 0, 0};
-            solid.motion.w = shared::kSolidBox;
+            solid.half_size = glm::vec2(half);
+            solid.kind = shared::kSolidBox;
         } else {
             // A cell's half diagonal: wherever it stands, a centre is inside.
-            solid.shape = {std::max(obstacle.size.x, 0.7072 * cell_m_), 0, 0, 0};
-            solid.motion.w = shared::kSolidCircle;
+            solid.half_size = glm::vec2(static_cast<float>(std::max(obstacle.size.x, 0.7072 * cell_m_)));
+            solid.kind = shared::kSolidCircle;
         }
         solids.push_back(solid);
     }
@@ -83,13 +83,13 @@ std::vector<WindSolid> SolidList::at(double time_s, glm::dvec2 origin) const {
 }
 
 glm::vec4 solid_bounds(const WindSolid& solid) {
-    const glm::vec2 place(solid.place), right(solid.place.z, solid.place.w), back(-solid.place.w, solid.place.z);
-    glm::vec2 least(-solid.shape.x, -solid.shape.y), most(solid.shape.x, solid.shape.y);
-    if (kind_of(solid) == shared::kSolidCircle)
-        return {place - solid.shape.x, place + solid.shape.x};
-    if (kind_of(solid) == shared::kSolidFootprint) {
-        least = glm::vec2(solid.shape.x, solid.shape.y);
-        most = least + glm::vec2(solid.bitmap.y, solid.bitmap.z) * solid.shape.z;
+    const glm::vec2 place = solid.place, right = solid.heading, back(-solid.heading.y, solid.heading.x);
+    glm::vec2 least = -solid.half_size, most = solid.half_size;
+    if (solid.kind == shared::kSolidCircle)
+        return {place - solid.half_size.x, place + solid.half_size.x};
+    if (solid.kind == shared::kSolidFootprint) {
+        least = solid.corner;
+        most = least + glm::vec2(solid.bits) * solid.bit_m;
     }
     const glm::vec2 middle = place + right * (0.5f * (least.x + most.x)) + back * (0.5f * (least.y + most.y));
     const glm::vec2 half = glm::abs(right) * (0.5f * (most.x - least.x)) + glm::abs(back) * (0.5f * (most.y - least.y));
@@ -98,10 +98,10 @@ glm::vec4 solid_bounds(const WindSolid& solid) {
 
 bool covers(const WindSolid& solid, glm::vec2 xz, const std::vector<std::uint32_t>& words) {
     const glm::vec2 own = shared::solid_frame(solid, xz);
-    if (kind_of(solid) != shared::kSolidFootprint)
+    if (solid.kind != shared::kSolidFootprint)
         return shared::solid_covers(solid, own);
     const int bit = shared::solid_bit(solid, own);
-    return bit >= 0 && (words[static_cast<std::size_t>(solid.bitmap.x + bit / 32)] >> (bit % 32) & 1U) != 0;
+    return bit >= 0 && (words[static_cast<std::size_t>(solid.first_word + bit / 32)] >> (bit % 32) & 1U) != 0;
 }
 
 } // namespace sward::wind

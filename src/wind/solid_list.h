@@ -25,7 +25,7 @@ public:
     /// At `time_s`, relative to `origin` (world x, z, m). Boxes and circles are at least a cell thick, so that no wall falls
     /// between the centres of cells. In the order of the file: where two overlap, the later one's velocity counts.
     [[nodiscard]] std::vector<shared::WindSolid> at(double time_s, glm::dvec2 origin) const;
-    /// Bits of all footprints; WindSolid::bitmap.x is the first word of its own. At least one word.
+    /// Bits of all footprints; WindSolid::first_word is the first word of its own. At least one word.
     [[nodiscard]] const std::vector<std::uint32_t>& words() const { return words_; }
 
 private:

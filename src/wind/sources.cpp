@@ -39,9 +39,9 @@ bool same(const std::vector<WindSolid>& a, const std::vector<WindSolid>& b) {
 /// Speed of a solid's fastest point.
 double speed_of(const WindSolid& solid) {
     const glm::vec4 bounds = solid_bounds(solid);
-    const glm::vec2 place(solid.place);
+    const glm::vec2 place = solid.place;
     const glm::vec2 far = glm::max(glm::abs(glm::vec2(bounds) - place), glm::abs(glm::vec2(bounds.z, bounds.w) - place));
-    return glm::length(glm::vec2(solid.motion)) + std::abs(solid.motion.z) * glm::length(far);
+    return glm::length(solid.velocity) + std::abs(solid.turn_rad_s) * glm::length(far);
 }
 
 } // namespace
@@ -75,9 +75,9 @@ bool Sources::fill_solids(const FluidGrid& grid, bool moved) {
     std::vector<WindSolid> solids = solids_.at(grid.time_s, grid.origin_m);
     if (!moved && same(solids, drawn_))
         return false;
-    loudest_solid_ms_ = 0;
+    loudest_solid_mps_ = 0;
     for (const WindSolid& solid : solids)
-        loudest_solid_ms_ = std::max(loudest_solid_ms_, speed_of(solid));
+        loudest_solid_mps_ = std::max(loudest_solid_mps_, speed_of(solid));
     solid_list_.upload(solids, bins_of(solids, solid_bounds, grid));
     drawn_ = std::move(solids);
     const std::uint32_t air = 0;
@@ -103,9 +103,9 @@ void Sources::set_inflow(const FluidGrid& grid, const std::vector<WindForce>& fo
 
 void Sources::apply_forces(const FluidGrid& grid) {
     const std::vector<WindForce> forces = forces_.at(grid.time_s, grid.origin_m, grid.cell_m);
-    loudest_force_ms_ = 0;
+    loudest_force_mps_ = 0;
     for (const WindForce& force : forces)
-        loudest_force_ms_ = std::max(loudest_force_ms_, static_cast<double>(force.push.x));
+        loudest_force_mps_ = std::max(loudest_force_mps_, static_cast<double>(force.speed_mps));
     set_inflow(grid, those(forces, brings_air));
     const std::vector<WindForce> pushes = those(forces, relaxes);
     force_list_.upload(pushes, bins_of(pushes, force_bounds, grid));
@@ -114,8 +114,8 @@ void Sources::apply_forces(const FluidGrid& grid) {
     force_list_.dispatch(force_program_, BIND_WIND_FORCES);
 }
 
-double Sources::loudest_ms() const {
-    return std::max(loudest_force_ms_, loudest_solid_ms_);
+double Sources::loudest_mps() const {
+    return std::max(loudest_force_mps_, loudest_solid_mps_);
 }
 
 void Sources::reload() {

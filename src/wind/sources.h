@@ -45,7 +45,7 @@ public:
     [[nodiscard]] bool active() const override { return always_active_ || !forces_.empty() || !solids_.empty(); }
     bool fill_solids(const FluidGrid& grid, bool moved) override;
     void apply_forces(const FluidGrid& grid) override;
-    [[nodiscard]] double loudest_ms() const override;
+    [[nodiscard]] double loudest_mps() const override;
 
     void reload();
 
@@ -60,7 +60,7 @@ private:
     std::vector<shared::WindSolid> drawn_; ///< what the solid mask holds
     bool always_active_ = false;
     bool has_inflow_ = false;              ///< whether the grid's inflow is anything but 0
-    double loudest_force_ms_ = 0, loudest_solid_ms_ = 0;
+    double loudest_force_mps_ = 0, loudest_solid_mps_ = 0;
 };
 
 } // namespace sward::wind

@@ -33,9 +33,9 @@ glm::dvec2 cpu_tap(const shared::WindTap& tap, std::span<const glm::vec4> cells,
 
 glm::dvec2 mean_of(const scene::WindSpec& spec) {
     const double from = spec.direction_deg * kTwoPi / 360; // where it comes from, clockwise from north (-z)
-    // Gusts lengthen the mean velocity to the mean speed: half of that is taken off, so that both are near speed_ms.
+    // Gusts lengthen the mean velocity to the mean speed: half of that is taken off, so that both are near speed_mps.
     const double turbulence = AmbientTile::kGustShare * spec.gust;
-    return glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_ms * (1 - 0.25 * turbulence * turbulence);
+    return glm::dvec2(-std::sin(from), std::cos(from)) * spec.speed_mps * (1 - 0.25 * turbulence * turbulence);
 }
 
 constexpr double kMostGain = 3; // faint gusts are no strong ones drawn small
@@ -66,26 +66,30 @@ void Wind::bind() const {
 
 shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag& ambient, const StateTag& window) const {
     shared::WindField field{};
-    field.mean = {mean_.x, mean_.y, 0, response_};
-    if (ambient_->strength_ms() > 0) {
+    field.mean = glm::vec2(mean_);
+    field.response = static_cast<float>(response_);
+    if (ambient_->strength_mps() > 0) {
         const double n = ambient.cells;
-        field.ambient = {n, ambient.share(time_s), 0, 0};
+        field.tile_cells = ambient.cells;
+        field.tile_share = static_cast<float>(ambient.share(time_s));
         const glm::dvec2 from = anchor - carried(time_s);
         const double gain = gust_gain(time_s);
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
             const double cell = ambient.cell_m * kLayerScale[layer], c = std::cos(kLayerTurn[layer]) / cell, s = std::sin(kLayerTurn[layer]) / cell;
             const glm::dvec2 place = glm::dvec2(c * from.x + s * from.y, -s * from.x + c * from.y) + shift_[layer];
             const glm::dvec2 wrapped = place - n * glm::floor(place / n);
-            field.layers[layer] = {wrapped.x, wrapped.y, c, s};
-            field.weights[layer] = static_cast<float>(kLayerWeight[layer] * gain);
-            field.weights[layer + 2] = static_cast<float>(cell);
+            field.layers[layer] = {glm::vec2(wrapped), {c, s}, static_cast<float>(kLayerWeight[layer] * gain), static_cast<float>(cell), 0, 0};
         }
     }
     if (window.cells > 0) {
         const glm::dvec2 corner = glm::dvec2(window.first_cell) * window.cell_m - anchor;
-        const glm::ivec2 n(window.cells), offset = ((window.first_cell % n) + n) % n;
-        field.window = {corner.x, corner.y, 1 / window.cell_m, window.cells};
-        field.blend = {offset.x, offset.y, window.share(time_s), kBlendShare * window.cells};
+        const glm::ivec2 n(window.cells);
+        field.window_corner_m = glm::vec2(corner);
+        field.window_per_m = static_cast<float>(1 / window.cell_m);
+        field.window_cells = window.cells;
+        field.window_first = ((window.first_cell % n) + n) % n;
+        field.window_share = static_cast<float>(window.share(time_s));
+        field.window_rim = static_cast<float>(kBlendShare * window.cells);
     }
     return field;
 }
@@ -101,18 +105,18 @@ glm::dvec2 Wind::at(double x, double z, double time_s) const {
     first.cells = AmbientTile::kCells;
     first.cell_m = AmbientTile::kCell_m;
     const shared::WindField field = compose({x, z}, time_s, ambient_landed ? ambient_back_->tag() : first, window_landed ? window_back_->tag() : StateTag{});
-    glm::dvec2 sum(field.mean.x, field.mean.y);
-    if (field.ambient.x > 0) {
+    glm::dvec2 sum(field.mean);
+    if (field.tile_cells > 0) {
         const std::span<const glm::vec4> cells = ambient_landed ? ambient_back_->cells() : std::span<const glm::vec4>(ambient_->initial());
         for (int layer = 0; layer < shared::kWindLayers; ++layer) {
-            const shared::WindTap tap = shared::wind_tile_tap(field.ambient.x, shared::wind_layer_place(field, layer, glm::vec2(0)));
-            sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.ambient.y)));
+            const shared::WindTap tap = shared::wind_tile_tap(static_cast<float>(field.tile_cells), shared::wind_layer_place(field, layer, glm::vec2(0)));
+            sum += glm::dvec2(shared::wind_layer_velocity(field, layer, cpu_tap(tap, cells, field.tile_share)));
         }
     }
-    const glm::vec2 place = -glm::vec2(field.window.x, field.window.y) * field.window.z;
+    const glm::vec2 place = -field.window_corner_m * field.window_per_m;
     const float share = shared::wind_window_share(field, place);
     if (share > 0) {
-        sum += (cpu_tap(shared::wind_window_tap(field, place), window_back_->cells(), field.blend.z) - sum) * static_cast<double>(share);
+        sum += (cpu_tap(shared::wind_window_tap(field, place), window_back_->cells(), field.window_share) - sum) * static_cast<double>(share);
     }
     return sum;
 }
@@ -135,7 +139,7 @@ void Wind::restart(double time_s) {
 }
 
 void Wind::step_ambient(double time_s) {
-    if (ambient_->strength_ms() > 0) {
+    if (ambient_->strength_mps() > 0) {
         while (ambient_->tag().latest < steps_for(time_s, AmbientTile::kStep_s)) {
             ambient_->step();
         }
@@ -248,11 +252,11 @@ void Wind::begin_gusts(std::unique_ptr<AmbientTile> tile) {
 }
 
 void Wind::set_mean(const MeanWind& wind) {
-    if (!(wind.speed_ms >= 0 && wind.speed_ms <= 60) || !(std::abs(wind.direction_deg) <= 1e6) || !(wind.gust >= 0 && wind.gust <= 1)) {
+    if (!(wind.speed_mps >= 0 && wind.speed_mps <= 60) || !(std::abs(wind.direction_deg) <= 1e6) || !(wind.gust >= 0 && wind.gust <= 1)) {
         throw base::Error(base::ExitCode::kBadInput, fmt::format("wind: found {} m/s from {} degrees, gust {}, expected 0 to 60 m/s, a direction, gust 0 to 1",
-                                                                 wind.speed_ms, wind.direction_deg, wind.gust));
+                                                                 wind.speed_mps, wind.direction_deg, wind.gust));
     }
-    if (wind.speed_ms == spec_.speed_ms && wind.direction_deg == spec_.direction_deg && wind.gust == spec_.gust) {
+    if (wind.speed_mps == spec_.speed_mps && wind.direction_deg == spec_.direction_deg && wind.gust == spec_.gust) {
         return;
     }
     drift_ = carried(time_s_);
@@ -260,15 +264,15 @@ void Wind::set_mean(const MeanWind& wind) {
     // A change within a change goes on from what blows.
     const double share = glm::clamp((time_s_ - change_s_) / kFade_s, 0.0, 1.0);
     const double faded = change_ == Change::kFades ? 1 - share : change_ == Change::kComes ? share : 1;
-    spec_.speed_ms = wind.speed_ms;
+    spec_.speed_mps = wind.speed_mps;
     spec_.direction_deg = wind.direction_deg;
     spec_.gust = wind.gust;
     mean_ = mean_of(spec_);
     if (time_s_ == 0 && ambient_->tag().latest == 0) {
         begin_gusts(std::make_unique<AmbientTile>(spec_, *ambient_, 0));
     } else {
-        const double strength = AmbientTile::kGustShare * spec_.gust * spec_.speed_ms;
-        gain_ = ambient_->strength_ms() > 0 ? std::min(strength / ambient_->strength_ms(), kMostGain) * faded : 0;
+        const double strength = AmbientTile::kGustShare * spec_.gust * spec_.speed_mps;
+        gain_ = ambient_->strength_mps() > 0 ? std::min(strength / ambient_->strength_mps(), kMostGain) * faded : 0;
         change_ = Change::kBlows;
         change_s_ = time_s_;
         next_.reset();
@@ -281,7 +285,7 @@ void Wind::set_mean(const MeanWind& wind) {
 /// The next stage of a change, once it is due.
 void Wind::settle(double time_s) {
     const double since = time_s - change_s_;
-    const auto now = spec_.gust * spec_.speed_ms > 0 ? steps_for(time_s, AmbientTile::kStep_s) : 0; // air without gusts has no states
+    const auto now = spec_.gust * spec_.speed_mps > 0 ? steps_for(time_s, AmbientTile::kStep_s) : 0; // air without gusts has no states
     if (change_ == Change::kBlows && since >= kSettled_s && !next_) {
         const double start = time_s > kLeap_s ? time_s - kRunUp_s : 0;
         next_ = std::make_unique<AmbientTile>(spec_, *ambient_, static_cast<std::int64_t>(start / AmbientTile::kStep_s));

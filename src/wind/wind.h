@@ -16,7 +16,7 @@ namespace sward::wind {
 
 /// The wind far from all that is local: what a weather report says.
 struct MeanWind {
-    double speed_ms = 4;
+    double speed_mps = 4;
     double direction_deg = 270; ///< where it comes from
     double gust = 0.4;          ///< 0 steady .. 1 violent
 };

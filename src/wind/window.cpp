@@ -7,9 +7,9 @@ namespace sward::wind {
 
 namespace {
 
-constexpr double kCalm_ms = 6, kCalmOfMean = 2; // air braked above this: eddies behind obstacles, dying gusts stay below
+constexpr double kCalm_mps = 6, kCalmOfMean = 2; // air braked above this: eddies behind obstacles, dying gusts stay below
 
-FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_ms) {
+FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
     FluidSettings settings;
     settings.cells = spec.cells;
     settings.cell_m = spec.cell_m;
@@ -17,21 +17,21 @@ FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_ms) {
     settings.confinement = spec.confinement;
     settings.viscosity_m2s = spec.viscosity_m2s;
     settings.dissipation_per_s = spec.dissipation_per_s;
-    settings.mean_ms = mean_ms;
+    settings.mean_mps = mean_mps;
     return settings;
 }
 
-double calm_of(const scene::WindSpec& spec) { return kCalm_ms + kCalmOfMean * spec.speed_ms * (1 + spec.gust); }
+double calm_of(const scene::WindSpec& spec) { return kCalm_mps + kCalmOfMean * spec.speed_mps * (1 + spec.gust); }
 
 } // namespace
 
-void Window::set_mean(const scene::WindSpec& spec, glm::dvec2 mean_ms) {
-    calm_ms_ = calm_of(spec);
-    fluid_.set_mean(mean_ms);
+void Window::set_mean(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
+    calm_mps_ = calm_of(spec);
+    fluid_.set_mean(mean_mps);
 }
 
-Window::Window(const scene::WindSpec& spec, glm::dvec2 mean_ms)
-    : fluid_(settings_of(spec, mean_ms)), calm_ms_(calm_of(spec)) {
+Window::Window(const scene::WindSpec& spec, glm::dvec2 mean_mps)
+    : fluid_(settings_of(spec, mean_mps)), calm_mps_(calm_of(spec)) {
     tag_.step_s = spec.step_s;
     tag_.cells = spec.cells;
     tag_.cell_m = spec.cell_m;
@@ -59,7 +59,7 @@ void Window::follow(glm::dvec2 eye, const shared::WindField& ambient) {
 }
 
 void Window::step(FluidInputs& inputs, const shared::WindField& ambient) {
-    fluid_.step(inputs, next_time_s(), ambient, calm_ms_);
+    fluid_.step(inputs, next_time_s(), ambient, calm_mps_);
     ++tag_.latest;
 }
 

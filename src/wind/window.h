@@ -12,9 +12,9 @@ class Window {
 public:
     static constexpr int kMoveCells = 8; ///< it moves when the eye is so far from its centre: rarely, and by less than the rim's blend
 
-    explicit Window(const scene::WindSpec& spec, glm::dvec2 mean_ms);
+    explicit Window(const scene::WindSpec& spec, glm::dvec2 mean_mps);
     /// Another wind from the next step on; of `spec` speed and gust alone.
-    void set_mean(const scene::WindSpec& spec, glm::dvec2 mean_ms);
+    void set_mean(const scene::WindSpec& spec, glm::dvec2 mean_mps);
 
     /// Stands around `eye` with the ambient wind in it, at state `first`.
     void begin(glm::dvec2 eye, std::int64_t first, const shared::WindField& ambient);
@@ -34,7 +34,7 @@ public:
 private:
     [[nodiscard]] glm::ivec2 first_for(glm::dvec2 eye) const;
     Fluid fluid_;
-    double calm_ms_;
+    double calm_mps_;
     StateTag tag_;
 };
 

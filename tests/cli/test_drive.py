@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A vehicle in the viewer, under the keyboard."""
+"""A vehicle and an aircraft in the viewer, under the keyboard."""
 import sward_cli
 from test_view import ESCAPE, ViewCase
 
 
 class Drive(ViewCase):
-    def test_drive(self):
-        """With the keyboard: away to the north, to the right, and to a stop."""
-        child = self.view("--window", "64x36", "--drive", "car", "--tyres-on", "road", "--fixed-timestep", "0.2", "--samples", "1", "--camera", "0,1,0,0,0")
+    def begin(self, *arguments):
+        """The viewer, its window, what tells a pose, and what waits for one; a picture is a fifth of a second."""
+        child = self.view("--window", "64x36", "--fixed-timestep", "0.2", "--samples", "1", *arguments)
         self.wait_for(lambda: self.display.colours() > 100, child)
         window = self.display.windows()[-1]
 
@@ -21,6 +21,34 @@ class Drive(ViewCase):
                 if what(at):
                     return at
             self.fail("waited in vain")
+
+        return child, window, pose, until
+
+    def test_fly(self):
+        """Hands off it flies on; with the stick to the right it banks and turns there."""
+        child, window, pose, until = self.begin("--fly", "trainer", "--camera", "0,200,400,0,0")
+        start = pose()
+        level = until(lambda at: at[2] < start[2] - 60)
+        self.assertLess(abs(level[1] - start[1]), 60, "above the ground, which is a hill")
+        self.assertLess(abs(level[3] + 180) % 360 - 180, 3)
+        self.display.key(window, "d", True)
+        turned = until(lambda at: 5 < at[3] < 90)
+        self.assertGreater(turned[0], start[0] - 5)
+        self.display.key(window, "d", False)
+        self.display.tap(window, ESCAPE)
+        _, err = child.communicate(timeout=300)
+        self.assertEqual(child.returncode, 0, err)
+
+    def test_refusals(self):
+        for option in ("--drive", "--fly"):
+            self.refuse(2, [option, "nothing", "one that ships"], "view", "scene.toml", option, "nothing", env=self.env)
+        (self.dir / "bad.toml").write_text("mass_kg = -1\n")
+        for option in ("--drive", "--fly"):
+            self.refuse(3, ["bad.toml:1", "mass_kg", "-1"], "view", "scene.toml", option, "bad.toml", env=self.env)
+
+    def test_drive(self):
+        """With the keyboard: away to the north, to the right, and to a stop."""
+        child, window, pose, until = self.begin("--drive", "car", "--tyres-on", "road", "--camera", "0,1,0,0,0")
 
         start = pose()
         self.assertAlmostEqual(start[0], -0.35, delta=0.4, msg="the driver's seat, in a car that stands aslant on the hill")

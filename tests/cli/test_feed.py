@@ -21,7 +21,7 @@ detail_m = 0
 [grass]
 set = "set"
 [wind]
-speed_ms = 5
+speed_mps = 5
 direction_deg = 270
 gust = 0
 """
@@ -150,9 +150,8 @@ class Feed(CliCase):
                 break
         ground = self.check_answer(answer, latitude + 100 / 111_000, longitude)
 
-        # The line goes first: in so narrow a window it wraps over the panel, and further the more packets it has to tell of.
         window = self.display.windows()[-1]
-        self.display.tap(window, "i")
+        self.display.tap(window, "i")  # in so narrow a window the line wraps over the panel, further the more packets it tells of
         self.wait_for(self.display.has_panel, child)
         self.display.tap(window, "t")
         self.wait_for(lambda: not self.display.has_panel(), child)

@@ -115,9 +115,9 @@ class Files(CliCase):
             ("[terrain]\nelevation = 5\n", [":2", "elevation"]),
             (SCENE + "[sun]\nazimuth_deg = nan\n", ["azimuth_deg", "nan"]),
             (SCENE + "[sun]\nelevation_deg = 'high'\n", ["elevation_deg"]),
-            (SCENE + "[wind]\nspeed_ms = -1\n", ["speed_ms"]),
-            (SCENE + "[wind]\nspeed_ms = 1e400\n", ["scene.toml"]),
-            (SCENE + "[wind]\nspeed_ms = 1\nspeed_ms = 2\n", ["scene.toml:"]),
+            (SCENE + "[wind]\nspeed_mps = -1\n", ["speed_mps"]),
+            (SCENE + "[wind]\nspeed_mps = 1e400\n", ["scene.toml"]),
+            (SCENE + "[wind]\nspeed_mps = 1\nspeed_mps = 2\n", ["scene.toml:"]),
             (SCENE + "[wind\n", ["scene.toml:"]),
             (SCENE + "a = [" * 5000, ["scene.toml"]),
             (SCENE + "[grass2]\n", ["grass2", "grass"]),
@@ -125,8 +125,8 @@ class Files(CliCase):
             (SCENE.replace('set = "set"', "set = ''"), ["set"]),
             (SCENE.replace("position = [0, 1.7, 0]", "position = [0, 1.7]"), ["position"]),
             (SCENE + "[path.empty]\nkeys = []\n", ["keys"]),
-            (SCENE + "[[wind.arrow]]\nid='a'\nparent='b'\nroot=[0,0]\ntip=[1,0]\nstrength_ms=1\nradius_m=1\n"
-                     "[[wind.arrow]]\nid='b'\nparent='a'\nroot=[0,0]\ntip=[1,0]\nstrength_ms=1\nradius_m=1\n", ["parent"]),
+            (SCENE + "[[wind.arrow]]\nid='a'\nparent='b'\nroot=[0,0]\ntip=[1,0]\nstrength_mps=1\nradius_m=1\n"
+                     "[[wind.arrow]]\nid='b'\nparent='a'\nroot=[0,0]\ntip=[1,0]\nstrength_mps=1\nradius_m=1\n", ["parent"]),
             ("\xff\xfe\n", ["scene.toml"]),
         ]
         for text, pieces in faults:

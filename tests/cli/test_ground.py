@@ -6,6 +6,7 @@ import struct
 
 import numpy
 import OpenEXR
+from PIL import Image
 
 import sward_cli
 from geotiff import geotiff
@@ -188,6 +189,25 @@ class Ground(CliCase):
                 self.assertAlmostEqual(float(self.info()["mask"].split()[-1]), 15.5 / 32, delta=0.02)
         geotiff(self.dir / "mask.tif", 33, 33, lambda i, j: 200, "B", **place, scale=0.01)
         self.refuse(3, ["mask.tif", "0 to 1"], "info", "scene.toml")
+
+    def test_a_refusal_is_one_line(self):
+        """A warning about what is refused a moment later is dropped, and a library's message is not lost behind the file's name."""
+        Image.new("RGB", (8, 8)).save(self.dir / "height.tif")
+        self.terrain("height_m = [0, 10]")
+        self.refuse(3, ["terrain.size_m"], "info", "scene.toml")
+        self.terrain("height_m = [0, 10]\nsize_m = [80, 80]")
+        result = self.sward("info", "scene.toml")
+        self.assert_done(result)
+        self.assertIn("3 bands", result.err)
+        deep = self.dir / ("d" * 60) / ("e" * 60)
+        deep.mkdir(parents=True)
+        (deep / "height.tif").write_bytes(b"II*\0" + b"\xff" * 40)
+        self.terrain()
+        scene = (self.dir / "scene.toml").read_text().replace('"height.tif"', f'"{deep.relative_to(self.dir)}/height.tif"')
+        (self.dir / "scene.toml").write_text(scene)
+        result = self.sward("info", "scene.toml")
+        self.assert_refusal(result, 3, "directory")
+        self.assertEqual(result.err.count("eeee/height.tif"), 1, result.err)
 
     def test_vertical_units_and_voids(self):
         geotiff(self.dir / "height.tif", 33, 33, lambda i, j: -32000 if i == j == 16 else 100, "h", UTM32, (10, 0, 500000, 0, -10, 5500000))

@@ -8,6 +8,7 @@ import struct
 
 import numpy
 import OpenEXR
+from PIL import Image
 
 import sward_cli
 from sward_cli import CliCase
@@ -210,6 +211,17 @@ class Stack(ImportCase):
         made, back = (json.loads(self.texgen("inspect", name, "--json").out) for name in ("own", "back"))
         self.assertAlmostEqual(made["side_m"], back["side_m"], delta=1e-6)
         self.assertAlmostEqual(made["far"][0]["coverage"], back["far"][0]["coverage"], delta=0.05)
+
+    def test_seam_of_small_pictures(self):
+        """An eighth of 10 texels is too narrow a border: three are cut. Of 8 texels no third can be."""
+        for side in (10, 8):
+            (self.dir / str(side)).mkdir()
+            for i in range(3):
+                Image.new("RGBA", (side, side), (40, 90, 20, 255)).save(self.dir / str(side) / f"l{i}.png")
+        self.assert_done(self.texgen("seam", "10", "-o", "out", "-q"))
+        with Image.open(self.dir / "out/l0.png") as picture:
+            self.assertEqual(picture.size, (7, 7))
+        self.refuse_texgen(3, ["8 texels", "at least 9"], "seam", "8", "-o", "bad")
 
     def test_seam_describes_its_stack(self):
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)

@@ -9,7 +9,7 @@ from sward_cli import SCENE, CliCase
 
 WIND = SCENE + """
 [wind]
-speed_ms = 5
+speed_mps = 5
 direction_deg = 270
 gust = 0
 cells = 48
@@ -18,7 +18,7 @@ cell_m = 0.5
 id = "a"
 root = [-6, 0]
 tip = [-1, 0]
-strength_ms = 12
+strength_mps = 12
 radius_m = 3
 [[wind.obstacle]]
 circle = [6, 0, 2]

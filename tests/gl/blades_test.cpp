@@ -33,8 +33,8 @@ protected:
     void select() {
         list_ = blades::select_tiles(world_.set, world_.surface,
                                      terrain::Frustum(world_.frame.clip_from_world),
-                                     {world_.anchor, vec3(world_.frame.lod_eye),
-                                      vec2(world_.frame.handover), world_.frame.mode.x});
+                                     {world_.anchor, world_.frame.lod_eye,
+                                      world_.frame.handover_band, world_.frame.handover_mode});
         cull_.upload(list_);
     }
     /// Survivors in the order of the draw.
@@ -99,12 +99,12 @@ protected:
             for (unsigned b = item.y; b < std::min(item.y + CULL_GROUP, list_.tiles[item.x].end); ++b) {
                 const BladeRecord blade = laid({item.x, b});
                 const vec3 at = root({item.x, b});
-                const vec2 band(world_.frame.handover);
-                const float d = glm::distance(at, vec3(world_.frame.lod_eye)),
+                const vec2 band = world_.frame.handover_band;
+                const float d = glm::distance(at, world_.frame.lod_eye),
                             margin = view_margin(world_.frame.clip_from_world, at, blade.shape.y);
                 const auto near = [&](float distance) {
                     return shared::handover_may_be_near(blade.root.z, distance, band,
-                                                        world_.frame.mode.x);
+                                                        world_.frame.handover_mode);
                 };
                 if (std::abs(margin) < 1e-3f || near(d - 1e-3f) != near(d + 1e-3f)) {
                     continue;
@@ -124,7 +124,7 @@ TEST_F(Cull, SurvivorsEqualBruteForceInEveryMode) {
     for (const int mode : {shared::kHandoverRank, shared::kHandoverOff, shared::kHandoverHard,
                            shared::kHandoverFade}) {
         SCOPED_TRACE(mode);
-        world_.frame.mode.x = mode;
+        world_.frame.handover_mode = mode;
         world_.upload();
         select();
         expect_brute_force(cull(), 1);
@@ -137,7 +137,7 @@ protected:
 };
 
 TEST_F(CullThin, DensityTakesTheHighSeeds) {
-    world_.frame.grass.y = 0.7f;
+    world_.frame.density_scale = 0.7f;
     world_.upload();
     select();
     const float density = 0.7f * 128 / 255; // the mask as eight bits hold it
@@ -160,7 +160,7 @@ TEST_F(Cull, SameOrderTwice) {
 }
 
 TEST_F(Cull, NoDensityNoBlades) {
-    world_.frame.grass.y = 0;
+    world_.frame.density_scale = 0;
     world_.upload();
     select();
     EXPECT_TRUE(cull().empty());
@@ -176,7 +176,7 @@ TEST_F(Cull, OrientationTakesBladesEdgeOn) {
     }
     std::size_t taken = 0;
     for (const glm::uvec2& s : all) {
-        const vec3 view = glm::normalize(root(s) - vec3(world_.frame.eye));
+        const vec3 view = glm::normalize(root(s) - world_.frame.eye);
         const float along = std::abs(glm::dot(view, shared::blade_width_direction(laid(s).shape.x)));
         if (std::abs(along - 0.9f) > 1e-4f) {
             EXPECT_EQ(left.count({s.x, s.y}), along > 0.9f ? 0u : 1u);
@@ -225,8 +225,8 @@ TEST_F(Blades, PyramidHoldsTheFarthestOfItsPixels) {
 
 TEST_F(Cull, WhatAWallHidesIsTakenAndNothingElse) {
     const glm::ivec2 size(320, 180);
-    world_.frame.clip_layout.y = size.x;
-    world_.frame.clip_layout.z = size.y;
+    world_.frame.picture_px.x = size.x;
+    world_.frame.picture_px.y = size.y;
     world_.upload();
     select();
     const Survivors all = cull();
@@ -334,8 +334,8 @@ vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade
     const vec3 across = shared::blade_width_direction(blade.shape.x);
     const vec3 normal = glm::normalize(glm::cross(shared::blade_tangent(v1, v2, uv.y), across));
     const float pixels =
-        2 * blade.v1.w * frame.eye.w / std::max(glm::distance(centre, vec3(frame.eye)), 0.05f);
-    const float thin = 1 - glm::clamp((pixels - frame.handover.z) / frame.handover.w, 0.0f, 1.0f);
+        2 * blade.v1.w * frame.focal_px / std::max(glm::distance(centre, frame.eye), 0.05f);
+    const float thin = 1 - glm::clamp((pixels - frame.width_least_px) / frame.width_span_px, 0.0f, 1.0f);
     const float t = glm::mix(shared::blade_outline(uv.x, uv.y, frame.looks[0].outline), uv.x, thin * thin);
     return centre + across * (blade.v1.w * (2 * t - 1)) +
            normal * (blade.v1.w * (0.5f - std::abs(uv.x - 0.5f)) * (1 - uv.y));
@@ -349,17 +349,17 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         const glm::uvec2 which = survivors[n];
         const BladeRecord blade = laid(which);
         const vec3 at = root(which);
-        const float distance = glm::distance(at, vec3(world_.frame.lod_eye));
+        const float distance = glm::distance(at, world_.frame.lod_eye);
         const float shell =
-            shared::pose_share(blade.root.z, distance, vec2(world_.frame.pose_band));
+            shared::pose_share(blade.root.z, distance, world_.frame.pose_band);
         vec3 v1(blade.v1), v2(blade.v2);
         const vec2 wind = world_.wind_at(vec2(at.x, at.z));
         shared::pose_blade(
-            v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.mean.w, shell),
+            v1, v2, vec4(blade.shape.y, world_.set.canopy_m, world_.frame.wind.response, shell),
             wind);
-        const float response = world_.frame.wind.mean.w;
+        const float response = world_.frame.wind.response;
         const vec3 flutter = shared::flutter_at(
-            world_.frame.lod_eye.w, vec4(blade.shape.y, blade.v2.w, blade.root.z, blade.root.w),
+            world_.frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.z, blade.root.w),
             (1 - shell) * shared::flutter_amplitude(glm::length(wind), response));
         fluttering += glm::length(flutter) > 1e-3f;
         shared::flutter_blade(v1, v2, blade.shape.y, vec2(flutter), wind);

@@ -126,29 +126,32 @@ inline glm::mat4 wide_view(glm::vec3 eye) {
 
 /// A small world on the GPU: ground, wind and grass, an eye over them, and constants for both.
 struct SmallWorld {
-    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in,
-               glm::dvec3 eye_at)
+    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in, glm::dvec3 eye_at)
         : surface(std::move(field), relief_m), mask(std::move(mask_in)), clipmap(surface, mask),
           wind(breeze(), 0.1), set(synthetic_set()) {
         clipmap.update({eye_at.x, eye_at.z});
         clipmap.bind();
-        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y),
-                  std::round(eye_at.z / 64) * 64};
+        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y), std::round(eye_at.z / 64) * 64};
         const glm::vec3 eye(eye_at - anchor);
         frame.clip_from_world = wide_view(eye);
         frame.near_m = shared::kNear_m;
         frame.world_from_clip = glm::inverse(frame.clip_from_world);
-        frame.eye = frame.lod_eye = glm::vec4(eye, 400);
-        const glm::dvec2 flat(anchor.x, anchor.z),
-            tile = glm::floor(flat / static_cast<double>(set.side_m));
-        frame.patch_grid = glm::vec4(glm::vec2(flat - tile * static_cast<double>(set.side_m)),
-                                     set.side_m, set.canopy_m);
-        frame.patch_tile = {static_cast<int>(tile.x), static_cast<int>(tile.y), set.variants,
-                            static_cast<int>(set.levels.size())};
-        frame.grass = {set.offset_range_m, 1, 1, anchor.y};
-        frame.mode = {shared::kHandoverRank, -1, 0, 0};
-        frame.handover = {4, 9, 0.1f, 0.35f};
-        frame.pose_band = {4, 9, 12, 0.006f};
+        frame.eye = frame.lod_eye = eye;
+        frame.focal_px = 400, frame.flutter_time = 0.25f;
+        const glm::dvec2 flat(anchor.x, anchor.z), tile = glm::floor(flat / static_cast<double>(set.side_m));
+        frame.patch_offset_m = glm::vec2(flat - tile * static_cast<double>(set.side_m));
+        frame.patch_side_m = set.side_m;
+        frame.canopy_m = set.canopy_m;
+        frame.anchor_tile = glm::ivec2(tile);
+        frame.patch_variants = set.variants;
+        frame.far_levels = static_cast<int>(set.levels.size());
+        frame.offset_range_m = set.offset_range_m;
+        frame.density_scale = frame.ground_takes_over = 1;
+        frame.anchor_height_m = static_cast<float>(anchor.y);
+        frame.handover_mode = shared::kHandoverRank, frame.forced_level = -1;
+        frame.handover_band = frame.pose_band = {4, 9};
+        frame.width_least_px = 0.1f, frame.width_span_px = 0.35f;
+        frame.segment_px = 12, frame.blade_width_m = 0.006f;
         clipmap.describe(frame, flat);
         frame.looks[0] = set.species.front().look;
         frame.light = daylight(glm::normalize(glm::vec3(0.4f, 0.7f, 0.3f)));
@@ -160,7 +163,7 @@ struct SmallWorld {
     }
     static scene::WindSpec breeze() {
         scene::WindSpec spec;
-        spec.speed_ms = 5;
+        spec.speed_mps = 5;
         spec.gust = 0.6;
         return spec;
     }

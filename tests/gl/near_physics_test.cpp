@@ -50,14 +50,14 @@ protected:
         return {scene, packed_, [](double, double) { return kGround_m; }};
     }
     [[nodiscard]] Simulation simulation(double radius_m = 3, std::size_t bytes = 64ull << 20) const {
-        return Simulation(world_.set, world_.frame.wind.mean.w, {{radius_m, bytes}, kStep_s});
+        return Simulation(world_.set, world_.frame.wind.response, {{radius_m, bytes}, kStep_s});
     }
     [[nodiscard]] Simulation::Inputs inputs(wind::Wind& wind, const blades::Colliders& colliders, glm::dvec3 eye = kEye) const {
         return {wind, world_.surface, colliders, eye, world_.anchor, 0, 0, nullptr};
     }
     static scene::WindSpec calm() {
         scene::WindSpec spec;
-        spec.speed_ms = 0;
+        spec.speed_mps = 0;
         spec.gust = 0;
         return spec;
     }
@@ -123,12 +123,12 @@ TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
     const auto all = living(simulation);
     ASSERT_GT(all.size(), 1500u);
     std::vector<vec4> twin = states_of(simulation);
-    shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.mean.w);
+    shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
     for (const One& one : all) { // they begin in the grouped pose
         const auto body = shared::set_blade_body(rules, one.blade, vec3(0));
         const glm::dvec2 at = world_.world({one.root.x, one.root.z});
         wind.wait();
-        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 0)), rules.time.z);
+        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 0)), rules.response);
         ASSERT_LT(glm::distance(begun, twin[one.at]), 1e-4f * one.blade.shape.y);
     }
     double worst = 0, moved = 0, memory = 0, deepest = 0;
@@ -230,13 +230,13 @@ TEST_F(NearPhysics, PagesComeAndGoWithTheEye) {
     ASSERT_GE(slot, 0);
     EXPECT_GT(simulation.pages().used(), 8u);
     const auto states = states_of(simulation);
-    const shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.mean.w);
+    const shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
     wind.wait();
     int compared = 0;
     for (const One& one : living(simulation)) {
         const glm::dvec2 at = world_.world({one.root.x, one.root.z});
         const auto body = shared::set_blade_body(rules, one.blade, vec3(0));
-        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 182 * kStep_s)), rules.time.z);
+        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 182 * kStep_s)), rules.response);
         ASSERT_LT(glm::distance(begun, states[one.at]), 1e-4f);
         ++compared;
     }
@@ -331,7 +331,7 @@ TEST_F(NearPhysics, EachPatchIsInTheListOfWhatItMeets) {
 TEST_F(NearPhysics, OneProgramForAllGivesTheSameBits) {
     wind::Wind wind(SmallWorld::breeze(), 0.1);
     const auto balls = colliders(ball_scene());
-    Simulation three = simulation(), one(world_.set, world_.frame.wind.mean.w, {{3, 64ull << 20}, kStep_s, blades::StepPrograms::kOne});
+    Simulation three = simulation(), one(world_.set, world_.frame.wind.response, {{3, 64ull << 20}, kStep_s, blades::StepPrograms::kOne});
     for (int step = 0; step <= 90; ++step) {
         three.advance(step * kStep_s, inputs(wind, balls));
         one.advance(step * kStep_s, inputs(wind, balls));

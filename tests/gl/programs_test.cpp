@@ -240,9 +240,7 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
 }
 
 TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
-    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT},
-                                                {"clip_surface", TEX_CLIP_SURFACE},
-                                                {"heights", TEX_CLIP_HEIGHT},
+    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT}, {"clip_surface", TEX_CLIP_SURFACE}, {"heights", TEX_CLIP_HEIGHT},
                                                 {"far_images", TEX_FAR_IMAGES}, {"record_texels", TEX_PHYSICS_BLADES},
                                                 {"far_shapes", TEX_FAR_SHAPES},
                                                 {"densities", TEX_MARCH_DENSITY},
@@ -260,6 +258,7 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK}, {"land_cover", TEX_LAND_COVER}, {"land_ground", TEX_LAND_GROUND},
+                                                {"land_shadow", TEX_LAND_SHADOW},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
                                                 {"depth", TEX_RESOLVE_DEPTH},
@@ -349,33 +348,6 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
     }
 }
 
-TEST_F(Programs, ConstantsLieWhereCppPutsThem) {
-    const gl::Program program = build({{"shells/far.vert", "shells/far.frag"}, {"SLICES", "AOV"}});
-    const auto offset_of = [&](const char* member) {
-        const GLuint index = glGetProgramResourceIndex(program.id(), GL_UNIFORM, member);
-        EXPECT_NE(index, GL_INVALID_INDEX) << member;
-        return static_cast<std::size_t>(resource_value(program.id(), GL_UNIFORM, index, GL_OFFSET));
-    };
-    using shared::FrameConstants;
-    EXPECT_EQ(offset_of("frame.clip_from_world"), offsetof(FrameConstants, clip_from_world));
-    EXPECT_EQ(offset_of("frame.eye"), offsetof(FrameConstants, eye));
-    EXPECT_EQ(offset_of("frame.patch_tile"), offsetof(FrameConstants, patch_tile));
-    EXPECT_EQ(offset_of("frame.mode"), offsetof(FrameConstants, mode));
-    EXPECT_EQ(offset_of("frame.far_bands[0]"), offsetof(FrameConstants, far_bands));
-    EXPECT_EQ(offset_of("frame.clip_layout"), offsetof(FrameConstants, clip_layout));
-    EXPECT_EQ(offset_of("frame.clip[0]"), offsetof(FrameConstants, clip));
-    EXPECT_EQ(offset_of("frame.looks[0].light"), offsetof(FrameConstants, looks[0].light));
-    EXPECT_EQ(offset_of("frame.light.horizon"), offsetof(FrameConstants, light.horizon));
-    EXPECT_EQ(offset_of("frame.wind.layers[0]"), offsetof(FrameConstants, wind.layers));
-    EXPECT_EQ(offset_of("frame.tracks.place"), offsetof(FrameConstants, tracks));
-    EXPECT_EQ(offset_of("frame.soil"), offsetof(FrameConstants, soil));
-    EXPECT_EQ(offset_of("frame.anchor_x"), offsetof(FrameConstants, anchor_x));
-    const GLuint block = glGetProgramResourceIndex(program.id(), GL_UNIFORM_BLOCK, "FrameBlock");
-    EXPECT_EQ(static_cast<std::size_t>(
-                  resource_value(program.id(), GL_UNIFORM_BLOCK, block, GL_BUFFER_DATA_SIZE)),
-              sizeof(FrameConstants));
-}
-
 TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
     const std::map<std::string, std::size_t> strides = {
         {"blades[0].root", sizeof(shared::BladeRecord)},
@@ -383,9 +355,9 @@ TEST_F(Programs, RecordsHaveTheStrideThatCppHas) {
         {"items[0]", sizeof(glm::uvec2)},
         {"survivors[0]", sizeof(glm::uvec2)},
         {"commands[0].vertices", sizeof(shared::DrawCommand)},
-        {"blocks[0].place", sizeof(shared::TerrainBlock)},
-        {"instances[0].place", sizeof(shared::FarInstance)},
-        {"samples[0].ground", sizeof(shared::BlockSample)}};
+        {"blocks[0].corner", sizeof(shared::TerrainBlock)},
+        {"instances[0].place_m", sizeof(shared::FarInstance)},
+        {"samples[0].height_m", sizeof(shared::BlockSample)}};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -458,6 +430,24 @@ TEST_F(ShaderErrors, NameTheLineOfAMissingInclude) {
     const std::string error = error_of([] { tone_map(); });
     expect_contains(error, "render/tone_map.frag:3");
     expect_contains(error, "none.glsl");
+}
+
+TEST_F(ShaderErrors, AUniformThatNoSourceDeclaresIsNamed) {
+    shaders_.write("uniforms.comp", "layout(local_size_x = 1) in;\n// uniform float remark;\nuniform float weights[2], left_out;\n#ifdef NEVER\n"
+                                    "uniform int variant_only;\n#endif\nlayout(std430, binding = 0) buffer Out { float result; };\n"
+                                    "void main() { float local = weights[0]; result = local; }\n");
+    const gl::Program program("weigher", {"uniforms.comp"});
+    EXPECT_EQ(error_of([&] { program.set("left_out", 1.0f); }), "no error");
+    EXPECT_EQ(error_of([&] { program.set("variant_only", 1); }), "no error");
+    EXPECT_EQ(error_of([&] { program.set("weights[0]", 0.5f); }), "no error");
+    for (const char* wrong : {"remark", "local", "wieghts"}) {
+        const std::string error = error_of([&] { program.set(wrong, 1.0f); });
+        expect_contains(error, "weigher");
+        expect_contains(error, wrong);
+    }
+    float weight = 0;
+    glGetUniformfv(program.id(), glGetUniformLocation(program.id(), "weights[0]"), &weight);
+    EXPECT_EQ(weight, 0.5f);
 }
 
 TEST_F(ShaderErrors, MissingFileAndUnknownStage) {

@@ -47,7 +47,7 @@ scene::Mesh ball(float radius) {
 render::World calm_world() {
     render::World world;
     world.scene.terrain.detail_m = 0;
-    world.scene.wind.speed_ms = 0;
+    world.scene.wind.speed_mps = 0;
     world.scene.wind.gust = 0;
     world.grass = synthetic_set();
     return world;

@@ -17,19 +17,16 @@
 namespace sward::tests {
 
 inline shared::GrassAppearance grass_look() {
-    return {{0.05f, 0.09f, 0.02f, 0.07f},
-            {0.08f, 0.15f, 0.03f, 0.45f},
-            {0.21f, 0.17f, 0.08f, 0.45f},
+    return {{0.05f, 0.09f, 0.02f}, 0.07f,
+            {0.08f, 0.15f, 0.03f}, 0.45f,
+            {0.21f, 0.17f, 0.08f}, 0.45f,
             {1.0f, 1.0f, 0.06f, 18.0f},
-            {0.5f, 0.4f, 0.1f, 0.0f},
+            {0.5f, 0.4f, 0.1f}, 0.0f,
             {2.0f, 1.0f, 1.0f, 1.0f}};
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
-    return {glm::vec4(to_sun, shared::kSunExtinction),
-            {3.6f, 3.4f, 3.0f, 2.2e-5f},
-            {0.22f, 0.42f, 0.85f, shared::kSkyExtinction},
-            {0.82f, 0.96f, 1.12f, 1}};
+    return {to_sun, shared::kSunExtinction, {3.6f, 3.4f, 3.0f}, 0, {0.22f, 0.42f, 0.85f}, shared::kSkyExtinction, {0.82f, 0.96f, 1.12f}, 0};
 }
 
 inline scene::Heightfield flat_field(float metres) {

@@ -182,7 +182,7 @@ TEST_F(Terrain, BlocksCoverTheGroundOnce) {
     SmallWorld world(hilly_field(), 0.8, {}, {123.4, 345, -321.5});
     const terrain::Frustum frustum(world.frame.clip_from_world);
     const auto blocks = visible_blocks(world.clipmap, world.surface, frustum, world.anchor,
-                                       {glm::vec3(world.frame.eye), 0.0f});
+                                       {world.frame.eye, 0.0f});
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(-1, 1);
     int seen = 0;
@@ -230,7 +230,7 @@ std::vector<terrain::VisibleBlock> all_blocks(const SmallWorld& world) {
     const terrain::Frustum everything(
         glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
     return visible_blocks(world.clipmap, world.surface, everything, world.anchor,
-                          {glm::vec3(world.frame.eye), 0.0f});
+                          {world.frame.eye, 0.0f});
 }
 
 /// Where a level meets the next, every second vertex lies on the middle of a coarser edge: there
@@ -250,22 +250,22 @@ void expect_no_cracks(const std::vector<terrain::VisibleBlock>& blocks, bool fin
     };
     for (std::size_t n = 0; n < samples.size(); ++n) {
         const auto [it, fresh] = heights.emplace(
-            key(blocks[n / shared::kBlockPosts].level, place_of(n)), samples[n].ground.x);
-        ASSERT_TRUE(fresh || it->second == samples[n].ground.x) << "blocks of one level disagree";
+            key(blocks[n / shared::kBlockPosts].level, place_of(n)), samples[n].height_m);
+        ASSERT_TRUE(fresh || it->second == samples[n].height_m) << "blocks of one level disagree";
     }
     int corners = 0, middles = 0;
     for (std::size_t n = 0; n < samples.size(); ++n) {
         const terrain::VisibleBlock& block = blocks[n / shared::kBlockPosts];
         const glm::vec2 place = place_of(n);
         if (const auto fine = heights.find(key(block.level - 1, place)); fine != heights.end()) {
-            ASSERT_NEAR(fine->second, samples[n].ground.x, 1e-3) << "level " << block.level;
+            ASSERT_NEAR(fine->second, samples[n].height_m, 1e-3) << "level " << block.level;
             ++corners;
         }
         for (const glm::vec2& step : {glm::vec2(block.cell, 0), glm::vec2(0, block.cell)}) {
             const auto fine = heights.find(key(block.level - 1, place + 0.5f * step));
             const auto next = heights.find(key(block.level, place + step));
             if (fine != heights.end() && next != heights.end()) {
-                ASSERT_NEAR(fine->second, 0.5 * (samples[n].ground.x + next->second), 2e-3)
+                ASSERT_NEAR(fine->second, 0.5 * (samples[n].height_m + next->second), 2e-3)
                     << "level " << block.level;
                 ++middles;
             }
@@ -285,7 +285,7 @@ TEST_F(Terrain, FineLevelsMeetWithoutCracks) {
     SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
     const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
     terrain::Detail detail{60, 8};
-    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor, {glm::vec3(world.frame.eye), 0.0f}, detail);
+    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor, {world.frame.eye, 0.0f}, detail);
     EXPECT_GT(blocks.size(), all_blocks(world).size());
     EXPECT_LT(blocks.size(), 8193u);
     EXPECT_GE(detail.zoom, 2.0f);
@@ -295,7 +295,7 @@ TEST_F(Terrain, FineLevelsMeetWithoutCracks) {
 
 TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
     SmallWorld world(hilly_field(), 0.8, even_mask(0.25f), {123.4, 345, -321.5});
-    world.frame.grass.y = 0.8f; // the scene's density
+    world.frame.density_scale = 0.8f; // the scene's density
     world.upload();
     const auto blocks = all_blocks(world);
     EXPECT_EQ(blocks.size(),
@@ -312,25 +312,25 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
         const glm::dvec2 at = world.world(place);
         const glm::dvec2 wind = world.wind.at(at.x, at.y, SmallWorld::kTime_s);
         const shared::BlockSample& sample = samples[n];
-        ASSERT_LT(glm::length(glm::dvec2(sample.motion.z, sample.motion.w) - wind), 5e-3)
+        ASSERT_LT(glm::length(glm::dvec2(sample.wind) - wind), 5e-3)
             << place.x << " " << place.y;
-        ASSERT_NEAR(sample.ground.y, 0.8f * 64 / 255, 2e-3);
+        ASSERT_NEAR(sample.density, 0.8f * 64 / 255, 2e-3);
         const glm::vec2 from_eye =
             glm::abs(place - glm::vec2(world.frame.eye.x, world.frame.eye.z)) / block.cell;
         const float cells = std::max(from_eye.x, from_eye.y);
         if (cells > 39 || (block.level > 0 && cells < 28)) {
             continue; // a blend of two levels, or another level's ground
         }
-        ASSERT_NEAR(sample.ground.x + world.anchor.y, world.surface.height(at.x, at.y, block.cell),
+        ASSERT_NEAR(sample.height_m + world.anchor.y, world.surface.height(at.x, at.y, block.cell),
                     2e-3)
             << "level " << block.level;
         ++checked[static_cast<std::size_t>(block.level)];
         if (block.level == 0) {
             const glm::vec3 normal = world.surface.normal(at.x, at.y);
-            ASSERT_NEAR(sample.ground.z, glm::dot(normal, glm::vec3(world.frame.light.to_sun)),
+            ASSERT_NEAR(sample.sun_cosine, glm::dot(normal, world.frame.light.to_sun),
                         0.02);
-            ASSERT_NEAR(sample.motion.x, -normal.x / normal.y, 0.03);
-            ASSERT_NEAR(sample.motion.y, -normal.z / normal.y, 0.03);
+            ASSERT_NEAR(sample.slope.x, -normal.x / normal.y, 0.03);
+            ASSERT_NEAR(sample.slope.y, -normal.z / normal.y, 0.03);
         }
     }
     for (int level = 0; level < 4; ++level) {

@@ -43,12 +43,12 @@ TEST_F(TracksLiving, ABladeThatWakesOnATrackBeginsPressedAndStaysSo) {
     world_.upload();
 
     scene::WindSpec calm;
-    calm.speed_ms = 0;
+    calm.speed_mps = 0;
     calm.gust = 0;
     wind::Wind wind(calm, 0.1);
     const std::map<std::filesystem::path, scene::SphereSet> none{};
     const blades::Colliders nothing(scene::Scene{}, none, [](double, double) { return kGround_m; });
-    const float response = world_.frame.wind.mean.w;
+    const float response = world_.frame.wind.response;
     blades::Simulation simulation(world_.set, response, {{3, 64ull << 20}, blades::Simulation::kStep_s});
     const blades::Simulation::Inputs inputs{wind, world_.surface, nothing, kEye, world_.anchor, 0, 0, nullptr};
     const shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(blades::Simulation::kStep_s), world_.set.canopy_m, response);

@@ -18,9 +18,9 @@ using tracks::TrackTwin;
 constexpr int kSide = shared::kTrackCells;
 
 /// A wheel along a path east over level ground.
-scene::Scene drive(double speed_ms, double from_x, double to_x, double z = 16) {
+scene::Scene drive(double speed_mps, double from_x, double to_x, double z = 16) {
     scene::Scene scene;
-    scene.paths["drive"].keys = {{0, {from_x, 0, z}, 90, 0}, {std::abs(to_x - from_x) / speed_ms, {to_x, 0, z}, 90, 0}};
+    scene.paths["drive"].keys = {{0, {from_x, 0, z}, 90, 0}, {std::abs(to_x - from_x) / speed_mps, {to_x, 0, z}, 90, 0}};
     scene::TrackSpec& spec = scene.tracks.emplace();
     spec.feet = {{scene::TrackFoot::Kind::kWheel, "drive", {0.8, 0}, {0.3, 0.35}, 0, 1}, {scene::TrackFoot::Kind::kBox, "drive", {-0.8, 0.2}, {0.4, 0.5}, 0.02, 1}};
     return scene;
@@ -48,10 +48,11 @@ TEST_F(Tracks, StepsEqualTheTwin) {
         for (int block = 0; block < shared::kTrackBlocks; ++block) {
             const int x = block % kRow, z = block / kRow;
             shared::TrackBlock entry{};
-            entry.page = {0, 0, static_cast<int>(work.prints.size()), (x + 256 * z) * shared::kTrackBlock};
-            entry.own.x = block;
+            entry.prints = static_cast<int>(work.prints.size());
+            entry.first_cell = glm::ivec2(x, z) * shared::kTrackBlock;
+            entry.own = block;
             entry.beside = {x > 0 ? block - 1 : -1, x < kRow - 1 ? block + 1 : -1, z > 0 ? block - kRow : -1, z < kRow - 1 ? block + kRow : -1};
-            entry.ground = {0.2f, -0.1f, 0, 0};
+            entry.slope = {0.2f, -0.1f};
             work.moving.push_back(entry);
         }
         pass.step(rules, work);

@@ -4,9 +4,12 @@
 #include <functional>
 
 #include "gl/fixture.h"
+#include "render/atmosphere.h"
 #include "shared/bend.h"
+#include "shared/sky.h"
 #include "shared/surface.h"
 #include "shared/tone.h"
+#include "terrain/land_shadow.h"
 
 namespace sward::tests {
 namespace {
@@ -124,13 +127,15 @@ TEST_F(Twins, ToneAndReliefAlike) {
 
 TEST_F(Twins, ShadesAlike) {
     SmallWorld world(flat_field(0), 0, {}, {0, 2, 0}); // its constants hold the look and the light
+    world.frame.air = render::Atmosphere(60).at(glm::normalize(glm::dvec3(0.4, 0.7, 0.3))).air;
+    world.upload();
     compare("lib/frame.glsl",
             "    vec3 tangent = normalize(vec3(a.x, 1.0, a.y));\n    vec3 to_eye = "
             "normalize(vec3(a.z, 0.3, a.w));\n"
             "    GrassPoint point = GrassPoint(blade_albedo(frame.looks[0], abs(a.xy) * 0.99, 0.4, "
             "1.0), tangent, 0.6, a.x);\n"
             "    b = vec4(shade_grass(frame.looks[0], frame.light, point, to_eye), "
-            "sky_radiance(frame.light, to_eye).g);",
+            "sky_radiance(to_eye).g + haze_of(900.0 * to_eye).added.b);",
             random_inputs(vec4(-1), vec4(1)), 1e-3f, [&](vec4 a) {
                 const shared::FrameConstants& frame = world.frame;
                 const vec3 tangent = glm::normalize(vec3(a.x, 1, a.y)),
@@ -139,7 +144,31 @@ TEST_F(Twins, ShadesAlike) {
                     shared::blade_albedo(frame.looks[0], glm::abs(vec2(a)) * 0.99f, 0.4f, 1), tangent,
                     0.6f, a.x};
                 return vec4(shade_grass(frame.looks[0], frame.light, point, to_eye),
-                            sky_radiance(frame.light, to_eye).g);
+                            shared::sky_radiance(frame.air, to_eye).y + shared::haze_of(frame.air, 900.0f * to_eye).added.z);
+            });
+}
+
+TEST_F(Twins, LandShadowAlike) {
+    SmallWorld world(hilly_field(), 0, {}, {0, 400, 0});
+    const scene::Heightfield& field = world.surface.elevation();
+    terrain::LandShadow shadow(field);
+    const glm::dvec3 to_sun = glm::normalize(glm::dvec3(0.9, 0.2, 0.4));
+    shadow.follow(to_sun, true);
+    shadow.describe(world.frame, {world.anchor.x, world.anchor.z});
+    shadow.bind();
+    world.upload();
+    terrain::SunSweep sweep(field);
+    sweep.begin(to_sun);
+    ASSERT_TRUE(sweep.advance(1000));
+    compare("lib/land_shadow.glsl", "    b = vec4(sun_seen(a.xy, 0.0), sun_seen(a.xy, a.z), 0.0, 0.0);",
+            random_inputs({-900, -900, 0, 0}, {900, 900, 30, 1}), 0.1f, // filters know 1/256 of a texel
+            [&](vec4 a) {
+                const glm::dvec2 at = world.world(vec2(a)) / field.spacing_m + 32.0, low = glm::floor(at);
+                const vec2 f(at - low);
+                const int i = static_cast<int>(low.x), j = static_cast<int>(low.y);
+                const vec2 seen = glm::mix(glm::mix(sweep.seen_from(i, j), sweep.seen_from(i + 1, j), f.x),
+                                           glm::mix(sweep.seen_from(i, j + 1), sweep.seen_from(i + 1, j + 1), f.x), f.y);
+                return vec4(shared::sun_share(seen, 0), shared::sun_share(seen, a.z), 0, 0);
             });
 }
 

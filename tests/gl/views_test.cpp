@@ -125,7 +125,7 @@ TEST_F(Views, ASunThatMovesEndsInItsPicture) {
 TEST_F(Views, AWindThatChangesEndsInItsPicture) {
     constexpr double kStep_s = 0.1;
     render::World late = face_world();
-    late.scene.wind.speed_ms = 9;
+    late.scene.wind.speed_mps = 9;
     late.scene.wind.direction_deg = 200;
     late.scene.wind.gust = 0.5;
     Field field = render::Access::field_of(face_world()), began = render::Access::field_of(std::move(late));

@@ -11,7 +11,7 @@ using wind::Wind;
 
 scene::WindSpec spec_of(double speed, double gust, int cells = 64) {
     scene::WindSpec spec;
-    spec.speed_ms = speed;
+    spec.speed_mps = speed;
     spec.gust = gust;
     spec.cells = cells;
     return spec;

@@ -49,7 +49,7 @@ public:
         const_cast<gl::Buffer*>(grid.u)->upload(u.data(), count * sizeof(float));
         const_cast<gl::Buffer*>(grid.v)->upload(v.data(), count * sizeof(float));
     }
-    [[nodiscard]] double loudest_ms() const override { return loudest; }
+    [[nodiscard]] double loudest_mps() const override { return loudest; }
 
     /// Storage place of a logical cell.
     static std::size_t stored(const wind::FluidGrid& grid, glm::ivec2 cell) {
@@ -116,7 +116,7 @@ inline double divergence_share(const wind::Fluid& fluid, const PlainInputs::Soli
 /// The ambient wind of a window without gusts.
 inline shared::WindField steady_wind(glm::vec2 mean) {
     shared::WindField field{};
-    field.mean = {mean.x, mean.y, 0, 0};
+    field.mean = mean;
     return field;
 }
 

@@ -10,7 +10,7 @@ using wind::Fluid;
 using wind::FluidSettings;
 
 constexpr double kTwoPi = 6.283185307179586;
-constexpr double kNoBrake_ms = 200;
+constexpr double kNoBrake_mps = 200;
 
 class WindFluid : public GlTest {
 protected:
@@ -31,7 +31,7 @@ protected:
     }
     static void run(Fluid& fluid, PlainInputs& inputs, int steps, glm::vec2 mean = {0, 0}, int first = 0) {
         for (int i = first + 1; i <= first + steps; ++i) {
-            fluid.step(inputs, i * fluid.settings().step_s, steady_wind(mean), kNoBrake_ms);
+            fluid.step(inputs, i * fluid.settings().step_s, steady_wind(mean), kNoBrake_mps);
         }
     }
 };
@@ -83,7 +83,7 @@ TEST_F(WindFluid, AUniformFlowStaysUniform) {
         settings.cells = 64;
         settings.periodic = periodic;
         settings.confinement = 0.3;
-        settings.mean_ms = {3, -1.5};
+        settings.mean_mps = {3, -1.5};
         Fluid fluid(settings);
         PlainInputs none;
         if (periodic) {
@@ -210,7 +210,7 @@ TEST_F(WindFluid, AbsurdForcesPassAndCalmReturns) {
     FluidSettings settings;
     settings.cells = 96;
     settings.confinement = 0.3;
-    settings.mean_ms = {4, 0};
+    settings.mean_mps = {4, 0};
     Fluid fluid(settings);
     PlainInputs inputs;
     fluid.move_to({-48, -48}, steady_wind({4, 0}));
@@ -224,42 +224,42 @@ TEST_F(WindFluid, AbsurdForcesPassAndCalmReturns) {
             }
         }
     };
-    const double calm_ms = 6 + 2 * 4;
+    const double calm_mps = 6 + 2 * 4;
     inputs.loudest = 1e6;
     for (int i = 0; i < 40; ++i) {
         kind = i % 4;
-        fluid.step(inputs, i / 60.0, steady_wind({4, 0}), calm_ms);
+        fluid.step(inputs, i / 60.0, steady_wind({4, 0}), calm_mps);
         ASSERT_LT(FluidState(fluid).fastest(), 300) << i;
     }
     EXPECT_GT(FluidState(fluid).fastest(), 100);
     inputs.push = {};
     inputs.loudest = 0;
     for (int i = 0; i < 60; ++i) {
-        fluid.step(inputs, (40 + i) / 60.0, steady_wind({4, 0}), calm_ms);
+        fluid.step(inputs, (40 + i) / 60.0, steady_wind({4, 0}), calm_mps);
     }
-    EXPECT_LT(FluidState(fluid).fastest(), 1.5 * calm_ms); // eddies of the storm are left, at speeds that gusts have
+    EXPECT_LT(FluidState(fluid).fastest(), 1.5 * calm_mps); // eddies of the storm are left, at speeds that gusts have
 }
 
 TEST_F(WindFluid, SolidEverywhereStandsStillAndLetsGo) {
     const WindTextures textures;
     FluidSettings settings;
     settings.cells = 64;
-    settings.mean_ms = {4, 0};
+    settings.mean_mps = {4, 0};
     Fluid fluid(settings);
     PlainInputs inputs;
     inputs.solid = [](glm::dvec2) { return true; };
     fluid.move_to({-32, -32}, steady_wind({4, 0}));
     run(fluid, inputs, 10, {4, 0});
-    const auto middle_ms = [&] {
+    const auto middle_mps = [&] {
         float u = 0;
         fluid.grid().u->read(&u, sizeof(u), PlainInputs::stored(fluid.grid(), {32, 32}) * sizeof(float));
         return u;
     };
-    EXPECT_EQ(middle_ms(), 0);
+    EXPECT_EQ(middle_mps(), 0);
     inputs.solid = [](glm::dvec2) { return false; };
     fluid.move_to({-31, -32}, steady_wind({4, 0})); // asks for the solids anew
     run(fluid, inputs, 60, {4, 0}, 10);
-    EXPECT_GT(middle_ms(), 0.2); // a second of wind has begun to push 60 m of still air
+    EXPECT_GT(middle_mps(), 0.2); // a second of wind has begun to push 60 m of still air
     EXPECT_LT(FluidState(fluid).fastest(), 8);
 }
 

@@ -26,8 +26,13 @@ struct GridOnGpu {
         grid.time_s = 3;
         grid.step_s = 1.0 / 60;
         shared::WindGrid constants{};
-        constants.plan = {cells, grid.offset.x, grid.offset.y, 1};
-        constants.size = {cell_m, 1 / cell_m, grid.step_s, grid.step_s / cell_m};
+        constants.cells = cells;
+        constants.stored = grid.offset;
+        constants.has_solids = 1;
+        constants.cell_m = static_cast<float>(cell_m);
+        constants.per_m = static_cast<float>(1 / cell_m);
+        constants.step_s = static_cast<float>(grid.step_s);
+        constants.step_per_m = static_cast<float>(grid.step_s / cell_m);
         block = gl::Buffer(sizeof(constants));
         block.upload(&constants, sizeof(constants));
         block.bind_uniform(BIND_WIND_GRID);
@@ -51,7 +56,7 @@ struct GridOnGpu {
 scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip, double strength,
                        double radius) {
     scene::WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_ms = strength, a.radius_m = radius;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength, a.radius_m = radius;
     return a;
 }
 
@@ -59,7 +64,7 @@ Source source(Source::Kind kind, glm::dvec2 place, double strength, double radiu
     Source s;
     s.kind = kind;
     s.where.place = place;
-    s.strength_ms = strength;
+    s.strength_mps = strength;
     s.radius_m = radius;
     return s;
 }
@@ -194,7 +199,7 @@ TEST_F(WindSources, ForcesAreTheCpusAndTheSameBitsTwice) {
             }
         EXPECT_GT(changed, 1000);
         EXPECT_LT(changed, kCells * kCells) << "what nothing touches keeps its bits";
-        EXPECT_NEAR(inputs.loudest_ms(), 12, 1e-4);
+        EXPECT_NEAR(inputs.loudest_mps(), 12, 1e-4);
     }
 }
 
@@ -268,7 +273,7 @@ TEST_F(WindDriven, AGustReachesTheTipsOfATreeInOrder) {
     for (std::size_t i = 0; i < reached.size(); ++i) {
         const scene::WindArrow& a = scene_.wind.arrows[i];
         ASSERT_GT(reached[i], 0) << a.id;
-        EXPECT_LE(reached[i], spans[i].start_s + glm::distance(a.root, a.tip) / a.strength_ms) << a.id << ": within the time of flight";
+        EXPECT_LE(reached[i], spans[i].start_s + glm::distance(a.root, a.tip) / a.strength_mps) << a.id << ": within the time of flight";
         EXPECT_GT(reached[i], spans[i].start_s - 0.35) << a.id << ": not long before its turn";
     }
     EXPECT_LT(reached[0] + 0.3, reached[1]);
@@ -314,7 +319,7 @@ TEST_F(WindDriven, NothingAbsurdMakesItUnsteady) {
     start();
     run_to(1);
     EXPECT_TRUE(std::isfinite(FluidState(*fluid_).fastest()));
-    EXPECT_LE(FluidState(*fluid_).fastest(), 1.5 * shared::kWindCeiling_ms);
+    EXPECT_LE(FluidState(*fluid_).fastest(), 1.5 * shared::kWindCeiling_mps);
 }
 
 TEST_F(WindDriven, TheSameScenesGiveTheSameBits) {

@@ -55,12 +55,12 @@ RING_SIZE, RING_YAWS = (240, 240), range(0, 360, 30)
 class Land:
     """A plane that rises to the north by `slope_deg`, the sun behind the eye or (`away`) behind the slope, and the wind."""
     slope_deg: float = 0
-    wind_ms: float = 0
+    wind_mps: float = 0
     away: bool = False
     grass: str = field(default="meadow", repr=False)  # a set that ships; references are kept under its scene
 
     def name(self):
-        return (("" if self.grass == "meadow" else f"{self.grass}_") + f"slope{self.slope_deg:g}_wind{self.wind_ms:g}" + ("_away" if self.away else ""))
+        return (("" if self.grass == "meadow" else f"{self.grass}_") + f"slope{self.slope_deg:g}_wind{self.wind_mps:g}" + ("_away" if self.away else ""))
 
     def pose(self, view):
         """Position in metres, yaw and pitch in degrees, of an eye that looks up the slope."""
@@ -81,7 +81,7 @@ class Land:
         """A scene whose path `view` stands in each pose for a moment."""
         keys = ", ".join(f"{{ t = {TIME + i * STEP:.6f}, position = [{p[0]:.9f}, {p[1]:.9f}, {p[2]:.9f}], yaw_deg = {yaw:.9f}, "
                          f"pitch_deg = {pitch:.9f} }}" for i, (p, yaw, pitch) in enumerate(poses))
-        return sward_image.scene_text([f"[path.view]\nagl = false\nfov_deg = {fov}\nkeys = [{keys}]\n"], self.wind_ms,
+        return sward_image.scene_text([f"[path.view]\nagl = false\nfov_deg = {fov}\nkeys = [{keys}]\n"], self.wind_mps,
                                       f"[sun]\nazimuth_deg = {330 if self.away else 150}\nelevation_deg = 40\n", self.grass)
 
     def write(self, folder, fov, poses):

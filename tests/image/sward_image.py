@@ -48,9 +48,9 @@ def camera(name, position, pitch_deg, fov_deg, yaw_deg=0):
             f"fov_deg = {fov_deg}\n")
 
 
-def scene_text(cameras, wind_ms=4, extra="", grass="meadow"):
+def scene_text(cameras, wind_mps=4, extra="", grass="meadow"):
     return (f'[terrain]\nelevation = "flat.raw"\ndetail_m = 0\n[grass]\nset = "{shipped_set(grass)}"\n'
-            f"[wind]\nspeed_ms = {wind_ms}\n{extra}" + "".join(cameras))
+            f"[wind]\nspeed_mps = {wind_mps}\n{extra}" + "".join(cameras))
 
 
 def load_png(path):

@@ -26,7 +26,7 @@ class Culling(ImageCase):
     @classmethod
     def scene(cls):
         # Still air: what differs is the culling. The body and the balls hide blades too.
-        return (SCENE / "scene.toml").read_text().replace("speed_ms = 3", "speed_ms = 0")
+        return (SCENE / "scene.toml").read_text().replace("speed_mps = 3", "speed_mps = 0")
 
     @classmethod
     def setUpClass(cls):

@@ -55,7 +55,7 @@ class Storm(ImageCase):
     def picture(cls, view, speed, *arguments, direction=270, build="ships", time=2.0, gust=0.4, size="240x136"):
         """Channels of a view in a wind from `direction`: 270 blows across the eye's way, 0 against it."""
         wind = f"{speed}\ndirection_deg = {direction}\ngust = {gust}"
-        (cls.dir / "scene.toml").write_text(sward_image.scene_text(cls.cameras, wind_ms=wind))
+        (cls.dir / "scene.toml").write_text(sward_image.scene_text(cls.cameras, wind_mps=wind))
         path, _ = cls.render("out.exr", "--camera", view, "--time", repr(time), "--aov", "color,coverage,depth", *arguments,
                              size=size, shaders=cls.builds[build])
         return sward_image.load_exr(path)

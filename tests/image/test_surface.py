@@ -102,7 +102,7 @@ class Surface(ImageCase):
     @classmethod
     def scene(cls):
         return ('[terrain]\nsurface = "ball.glb"\n[surface_grass]\nset = "short"\nground_colour = [0.04, 0.025, 0.015]\n'
-                "[sun]\nazimuth_deg = 150\nelevation_deg = 40\n[wind]\nspeed_ms = 0\ngust = 0\n" + "".join(pose(d) for d in DISTANCES))
+                "[sun]\nazimuth_deg = 150\nelevation_deg = 40\n[wind]\nspeed_mps = 0\ngust = 0\n" + "".join(pose(d) for d in DISTANCES))
 
     @classmethod
     def setUpClass(cls):

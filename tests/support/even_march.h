@@ -36,8 +36,11 @@ inline grass::FarMedium even_march(float side, float canopy, int variants, float
         march.medium.layers[i] = {0.8f, 0.5f, 0, 0};
         march.medium.level_tint[i] = march.medium.steep_tint[i] = {1, 1, 1, 0};
     }
-    march.medium.look = {1, 1, 0.06f, 18};
-    march.medium.size = {side, canopy, 0.4f, static_cast<float>(variants)};
+    march.medium.gloss = {1, 1, 0.06f, 18};
+    march.medium.side_m = side;
+    march.medium.canopy_m = canopy;
+    march.medium.translucency = 0.4f;
+    march.medium.variants = variants;
     shared::fill_views(march.medium);
     std::vector<std::uint8_t> density(8);
     const float values[4] = {0.08f, 0.15f, 0.03f, 1};

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "drive/vehicle.h"
+#include "drive/vehicle_mesh.h"
 
 namespace {
 
@@ -64,6 +65,54 @@ TEST(Vehicle, WheelsAreWhereTheyShouldBe) {
     EXPECT_NEAR(wheels[3].contact.z, 1.45, 0.02);
 }
 
+TEST(Vehicle, WheelsRollAndAreSteered) {
+    Vehicle vehicle(car(), flat(Surface::kRoad));
+    vehicle.put(0, 0, 0);
+    drive(vehicle, 3, {0.4, 0, 0});
+    double turned = 0;
+    const VehicleState from = vehicle.state();
+    VehicleState before = from, now = from;
+    for (int i = 0; i < 120; ++i, before = now) { // two seconds, by less than a quarter of a turn a step
+        vehicle.advance(Vehicle::kStep_s, {0.4, 0, 0});
+        now = vehicle.state();
+        const glm::dvec3 spoke = now.wheels[2].turn * glm::dvec3(0, 1, 0), last = before.wheels[2].turn * glm::dvec3(0, 1, 0);
+        turned += std::atan2(glm::dot(glm::cross(last, spoke), glm::dvec3(-1, 0, 0)), glm::dot(last, spoke)); // the top goes ahead
+        for (const WheelState& wheel : now.wheels)
+            EXPECT_NEAR(wheel.hub.y - wheel.contact.y, 0.32, 0.02);
+    }
+    EXPECT_NEAR(turned * 0.32, from.position.z - now.position.z, 0.3);
+    drive(vehicle, 1, {0, 1, 0});
+    const glm::dvec3 axle = vehicle.state().wheels[1].turn * glm::dvec3(1, 0, 0), rear = vehicle.state().wheels[3].turn * glm::dvec3(1, 0, 0);
+    EXPECT_GT(glm::dot(glm::cross(axle, rear), glm::dvec3(0, 1, 0)), 0.1) << "to the right: clockwise from above";
+}
+
+TEST(VehicleMesh, BodiesHaveTheirPresetsMeasuresAndClearTheirWheels) {
+    for (const char* const name : {"car", "tractor"}) {
+        const VehicleSpec spec = load_vehicle(kRoot + "/vehicles/" + name + ".toml");
+        const sward::scene::Mesh body = body_mesh(spec), roof = roof_mesh(spec);
+        glm::dvec3 low(1e9), high(-1e9);
+        for (const sward::scene::Mesh* const mesh : {&body, &roof})
+            for (const glm::vec3& at : mesh->positions) {
+                low = glm::min(low, glm::dvec3(at));
+                high = glm::max(high, glm::dvec3(at));
+            }
+        EXPECT_LT(glm::length(high - low - spec.size_m), 1e-5) << name;
+        EXPECT_NEAR(low.y, spec.clearance_m, 1e-5) << name;
+        for (const auto& at : body.positions)
+            for (const AxleSpec& axle : spec.axles) {
+                const bool beside = std::abs(static_cast<double>(at.x)) < axle.track_m / 2 - axle.width_m / 2;
+                const glm::dvec2 away(static_cast<double>(at.y) - axle.radius_m, static_cast<double>(at.z) + axle.ahead_m);
+                EXPECT_TRUE(beside || glm::length(away) > axle.radius_m) << name << " " << at.x << " " << at.y << " " << at.z;
+            }
+        const sward::scene::Mesh wheel = wheel_mesh(spec.axles[1]);
+        for (std::size_t i = 0; i < wheel.positions.size(); ++i) {
+            EXPECT_LT(glm::length(glm::dvec2(wheel.positions[i].y, wheel.positions[i].z)), spec.axles[1].radius_m + 1e-5);
+            EXPECT_GE(glm::dot(wheel.positions[i], wheel.normals[i]), -1e-5f) << "out of the wheel";
+        }
+        EXPECT_EQ(body.positions.size(), body.normals.size());
+    }
+}
+
 TEST(Vehicle, DrivesTwoHundredMetresTurnsAndStops) {
     Vehicle vehicle(car(), flat(Surface::kRoad));
     vehicle.put(0, 0, 0);
@@ -71,31 +120,31 @@ TEST(Vehicle, DrivesTwoHundredMetresTurnsAndStops) {
     VehicleState state = vehicle.state();
     EXPECT_LT(state.position.z, -200);
     EXPECT_NEAR(state.position.x, 0, 1) << "straight on";
-    EXPECT_GT(state.speed_ms(), 20);
-    EXPECT_LT(state.speed_ms(), 50);
+    EXPECT_GT(state.speed_mps(), 20);
+    EXPECT_LT(state.speed_mps(), 50);
     drive(vehicle, 1.5, {0, 1, 0});
     state = vehicle.state();
     EXPECT_GT(yaw_deg(state), 5) << "to the right";
     EXPECT_LT(yaw_deg(state), 120);
     drive(vehicle, 8, {0, 0, 1});
     state = vehicle.state();
-    EXPECT_NEAR(state.speed_ms(), 0, 0.05);
+    EXPECT_NEAR(state.speed_mps(), 0, 0.05);
     const glm::dvec3 stopped = state.position;
     drive(vehicle, 3, {-1, 0, 0});
-    EXPECT_LT(vehicle.state().speed_ms(), -2) << "the same pedal drives back";
-    EXPECT_GT(vehicle.state().speed_ms(), -25 / 3.6 - 0.5);
+    EXPECT_LT(vehicle.state().speed_mps(), -2) << "the same pedal drives back";
+    EXPECT_GT(vehicle.state().speed_mps(), -25 / 3.6 - 0.5);
     EXPECT_GT(glm::distance(vehicle.state().position, stopped), 3);
 }
 
 TEST(Vehicle, GripIsTheSurfaces) {
     const auto braking = [](Surface surface) {
         Vehicle vehicle(car(), flat(surface));
-        for (int i = 0; i < 3000 && vehicle.state().speed_ms() < 15; ++i)
+        for (int i = 0; i < 3000 && vehicle.state().speed_mps() < 15; ++i)
             vehicle.advance(1.0 / 60, {1, 0, 0});
-        EXPECT_GE(vehicle.state().speed_ms(), 15);
+        EXPECT_GE(vehicle.state().speed_mps(), 15);
         const glm::dvec3 begin = vehicle.state().position;
         drive(vehicle, 15, {0, 0, 1});
-        EXPECT_NEAR(vehicle.state().speed_ms(), 0, 0.1);
+        EXPECT_NEAR(vehicle.state().speed_mps(), 0, 0.1);
         return glm::distance(begin, vehicle.state().position);
     };
     const double road = braking(Surface::kRoad), grass = braking(Surface::kGrass), wet = braking(Surface::kWetGrass);
@@ -134,10 +183,10 @@ TEST(Vehicle, NeverFallsThroughAndNeverExplodesAtAnyRate) {
                 const double t = i / rate;
                 vehicle.advance(1 / rate, {std::fmod(t, 9) < 7 ? 1.0 : -1.0, std::sin(t * 0.6), 0});
                 const VehicleState state = vehicle.state();
-                ASSERT_TRUE(std::isfinite(glm::length(state.position) + glm::length(state.velocity_ms))) << name << rate << " " << t;
+                ASSERT_TRUE(std::isfinite(glm::length(state.position) + glm::length(state.velocity_mps))) << name << rate << " " << t;
                 const glm::dvec3 middle = state.position + state.turn * glm::dvec3(0, vehicle.spec().mass_height_m, 0);
                 ASSERT_GT(middle.y, rough(middle.x, middle.z) - 0.35) << name << rate << " " << t;
-                ASSERT_LT(glm::length(state.velocity_ms), 60) << name << rate << " " << t;
+                ASSERT_LT(glm::length(state.velocity_mps), 60) << name << rate << " " << t;
                 ASSERT_LT(middle.y, rough(middle.x, middle.z) + 30) << name << rate << " " << t;
             }
         }

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "grass_fixture.h"
-#include "texgen/flat_rays.h"
+#include "texgen/far/flat_rays.h"
 
 namespace sward::texgen {
 namespace {

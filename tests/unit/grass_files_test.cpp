@@ -17,7 +17,7 @@
 #include "grass/ktx2.h"
 #include "grass/set_files.h"
 #include "grass_fixture.h"
-#include "texgen/check_nan.h"
+#include "texgen/bake/check_nan.h"
 
 namespace sward::texgen {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/log.h"
-#include "texgen/patch.h"
-#include "texgen/preset.h"
-#include "texgen/writer.h"
+#include "texgen/bake/writer.h"
+#include "texgen/patch/patch.h"
+#include "texgen/preset/preset.h"
 
 namespace sward::texgen {
 

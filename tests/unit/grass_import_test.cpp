@@ -12,13 +12,13 @@
 #include "grass/set_files.h"
 #include "grass_fixture.h"
 #include "shared/shading.h"
-#include "texgen/canopy.h"
-#include "texgen/far_table.h"
-#include "texgen/flat_rays.h"
-#include "texgen/import.h"
-#include "texgen/import_field.h"
-#include "texgen/vdb_file.h"
-#include "texgen/vdb_writer.h"
+#include "texgen/far/far_table.h"
+#include "texgen/far/flat_rays.h"
+#include "texgen/import/import.h"
+#include "texgen/import/import_field.h"
+#include "texgen/patch/canopy.h"
+#include "texgen/vdb/vdb_file.h"
+#include "texgen/vdb/vdb_writer.h"
 
 namespace sward::texgen {
 namespace {

@@ -18,9 +18,9 @@
 #include "shared/bend.h"
 #include "shared/shading.h"
 #include "shells/far_appearance.h"
-#include "texgen/canopy.h"
-#include "texgen/far_table.h"
-#include "texgen/parallel.h"
+#include "texgen/far/far_table.h"
+#include "texgen/patch/canopy.h"
+#include "texgen/work/parallel.h"
 
 namespace sward::texgen {
 namespace {
@@ -38,10 +38,12 @@ glm::vec3 heading(double elevation_deg, double azimuth_deg) {
 
 shared::Light light_from(const glm::vec3& to_sun) {
     shared::Light light{};
-    light.to_sun = {to_sun, shared::kSunExtinction};
-    light.sun = {3.1f, 2.9f, 2.4f, 0};
-    light.zenith = {0.2f, 0.4f, 0.8f, shared::kSkyExtinction};
-    light.horizon = {0.8f, 0.9f, 1.1f, 1};
+    light.to_sun = to_sun;
+    light.sun_extinction = shared::kSunExtinction;
+    light.sun = {3.1f, 2.9f, 2.4f};
+    light.zenith = {0.2f, 0.4f, 0.8f};
+    light.sky_extinction = shared::kSkyExtinction;
+    light.horizon = {0.8f, 0.9f, 1.1f};
     return light;
 }
 
@@ -64,7 +66,7 @@ Seen look_at(const Patch& patch, double canopy, const View& view, const shared::
     const glm::vec3 to_eye = heading(view.elevation_deg, view.eye_azimuth_deg);
     const glm::vec3 turn = shared::bend_turn(shared::kSwayHeight, 1, view.wind, view.response);
     const shared::Light light = shared::light_in_sway(
-        above, shared::canopy_sway(patch.looks.front(), turn, glm::vec3(above.to_sun), to_eye));
+        above, shared::canopy_sway(patch.looks.front(), turn, above.to_sun, to_eye));
     for (int v = 0; v < patch.variants(); ++v) {
         const auto rest = patch.variant(v);
         std::vector<shared::BladeRecord> bent(rest.begin(), rest.end());
@@ -105,7 +107,7 @@ std::size_t index_of(const std::vector<float>& axis, float value) {
 }
 
 glm::dvec3 radiance_of(const FarSample& s, const shared::Light& light) {
-    return s.sun * glm::vec3(light.sun) + s.sky * shared::even_sky(light);
+    return s.sun * light.sun + s.sky * shared::even_sky(light);
 }
 
 double worst_ratio(const glm::dvec3& found, const glm::dvec3& truth) {
@@ -183,11 +185,11 @@ TEST(FarLight, AtRestItsCoverageAndHeightAreTheRows) {
 
 TEST(FarLight, SkylightDoesNotAskWhereTheSunStands) {
     shared::Light sky = light_from({0, 1, 0});
-    sky.sun = {0, 0, 0, 0};
+    sky.sun = {0, 0, 0};
     const auto& look = small_set().species.front().look;
     const shared::GrassPoint point{{0.1f, 0.2f, 0.05f}, heading(60, 20), 0.4f, 0.5f};
     const glm::vec3 one = shared::shade_grass(look, sky, point, heading(40, 100));
-    sky.to_sun = {heading(15, 200), shared::kSunExtinction};
+    sky.to_sun = heading(15, 200);
     EXPECT_EQ(one, shared::shade_grass(look, sky, point, heading(40, 100))); // else the table needs a sky for each sun
 }
 
@@ -311,9 +313,9 @@ TEST(FarAppearance, IsLinearInTheColoursOfSunAndSky) {
     shared::Light light = light_from(heading(33, 50));
     const glm::vec4 wind(3, 1, 0.4f, 0.1f);
     const std::vector<glm::vec4> one = shells::canopy_table(table, light, wind);
-    light.sun *= glm::vec4(2, 0, 0.5f, 1);
-    light.zenith *= glm::vec4(3, 3, 3, 1);
-    light.horizon *= glm::vec4(3, 3, 3, 1);
+    light.sun *= glm::vec3(2, 0, 0.5f);
+    light.zenith *= 3;
+    light.horizon *= 3;
     const std::vector<glm::vec4> other = shells::canopy_table(table, light, wind);
     for (std::size_t i = 0; i < one.size(); ++i) {
         const glm::vec4 factor = i < one.size() / 2 ? glm::vec4(2, 0, 0.5f, 1) : glm::vec4(3, 3, 3, 1);

@@ -9,8 +9,8 @@
 #include "shared/march_light.h"
 #include "shells/far_appearance.h"
 #include "shells/march_light.h"
-#include "texgen/march_fit.h"
-#include "texgen/march_slope.h"
+#include "texgen/far/march_fit.h"
+#include "texgen/far/march_slope.h"
 
 namespace sward::texgen {
 namespace {
@@ -20,8 +20,8 @@ constexpr float kDegree = shared::kPi / 180;
 shared::MarchPath path_down(const shared::MarchMedium& medium, float elevation_deg, float bend) {
     shared::MarchPath path;
     path.way = {std::cos(elevation_deg * kDegree), -std::sin(elevation_deg * kDegree), 0};
-    path.bend = {0.6f, 0.8f, bend / medium.size.y, 0};
-    path.bend.w = shared::march_bent_height(path, medium.size.y);
+    path.bend = {0.6f, 0.8f, bend / medium.canopy_m, 0};
+    path.bend.w = shared::march_bent_height(path, medium.canopy_m);
     path.from = {0.3f, path.bend.w, 0.7f};
     path.height = {path.bend.w, path.way.y, 0, -path.bend.w / path.way.y};
     return path;
@@ -30,10 +30,12 @@ shared::MarchPath path_down(const shared::MarchMedium& medium, float elevation_d
 shared::Light light_from(float elevation_deg, float azimuth_deg) {
     const float e = elevation_deg * kDegree, a = azimuth_deg * kDegree;
     shared::Light light{};
-    light.to_sun = {std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a), shared::kSunExtinction};
-    light.sun = {1, 0.95f, 0.85f, 0};
-    light.zenith = {0.15f, 0.2f, 0.3f, shared::kSkyExtinction};
-    light.horizon = {0.3f, 0.33f, 0.36f, 1};
+    light.to_sun = {std::cos(e) * std::cos(a), std::sin(e), std::cos(e) * std::sin(a)};
+    light.sun_extinction = shared::kSunExtinction;
+    light.sun = {1, 0.95f, 0.85f};
+    light.zenith = {0.15f, 0.2f, 0.3f};
+    light.sky_extinction = shared::kSkyExtinction;
+    light.horizon = {0.3f, 0.33f, 0.36f};
     return light;
 }
 
@@ -42,8 +44,8 @@ TEST(March, RestHeightsUndoTheBend) {
     for (const float bend : {0.0f, 0.4f, 0.9f}) {
         const shared::MarchPath path = path_down(medium, 30, bend);
         for (int i = 0; i <= 20; ++i) {
-            const float y = medium.size.y * static_cast<float>(i) / 20;
-            EXPECT_NEAR(shared::march_rest_height(path, shared::march_bent_height(path, y)), y, 1e-4f * medium.size.y) << bend;
+            const float y = medium.canopy_m * static_cast<float>(i) / 20;
+            EXPECT_NEAR(shared::march_rest_height(path, shared::march_bent_height(path, y)), y, 1e-4f * medium.canopy_m) << bend;
         }
     }
 }

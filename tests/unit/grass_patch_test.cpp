@@ -8,8 +8,8 @@
 #include <random>
 
 #include "grass_fixture.h"
-#include "texgen/canopy.h"
-#include "texgen/patch.h"
+#include "texgen/patch/canopy.h"
+#include "texgen/patch/patch.h"
 
 namespace sward::texgen {
 namespace {

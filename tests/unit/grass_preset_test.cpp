@@ -9,8 +9,8 @@
 
 #include "grass_fixture.h"
 #include "shared/blade.h"
-#include "texgen/canopy.h"
-#include "texgen/flat_rays.h"
+#include "texgen/far/flat_rays.h"
+#include "texgen/patch/canopy.h"
 
 namespace sward::texgen {
 namespace {

@@ -7,10 +7,10 @@
 
 #include "base/hash.h"
 #include "grass_fixture.h"
-#include "texgen/canopy.h"
-#include "texgen/placing.h"
-#include "texgen/far_level.h"
-#include "texgen/rays.h"
+#include "texgen/bake/far_level.h"
+#include "texgen/patch/canopy.h"
+#include "texgen/patch/placing.h"
+#include "texgen/patch/rays.h"
 
 namespace sward::texgen {
 namespace {

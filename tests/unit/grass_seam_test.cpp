@@ -14,9 +14,9 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "grass_fixture.h"
-#include "texgen/seam_images.h"
-#include "texgen/vdb_file.h"
-#include "texgen/vdb_writer.h"
+#include "texgen/seam/seam_images.h"
+#include "texgen/vdb/vdb_file.h"
+#include "texgen/vdb/vdb_writer.h"
 
 namespace sward::texgen {
 namespace {

@@ -14,9 +14,9 @@
 #include "grass/set_files.h"
 #include "grass_fixture.h"
 #include "shared/shading.h"
-#include "texgen/vdb_file.h"
-#include "texgen/vdb_writer.h"
-#include "texgen/volume.h"
+#include "texgen/vdb/vdb_file.h"
+#include "texgen/vdb/vdb_writer.h"
+#include "texgen/vdb/volume.h"
 
 namespace sward::texgen {
 namespace {

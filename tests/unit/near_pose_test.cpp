@@ -9,8 +9,8 @@
 #include "blades/pages.h"
 #include "lod/lod.h"
 #include "shared/bindings.h"
-#include "texgen/patch.h"
-#include "texgen/preset.h"
+#include "texgen/patch/patch.h"
+#include "texgen/preset/preset.h"
 
 namespace sward {
 namespace {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip) {
     WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_ms = 5, a.radius_m = 2;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = 5, a.radius_m = 2;
     return a;
 }
 
@@ -43,7 +43,7 @@ TEST(ArrowEdit, AddsAndBranches) {
     const WindArrow& b = edit.arrows()[*branch];
     EXPECT_EQ(b.parent, edit.arrows()[*root].id);
     EXPECT_EQ(b.root, glm::dvec2(4, 6));
-    EXPECT_EQ(b.strength_ms, edit.arrows()[*root].strength_ms);
+    EXPECT_EQ(b.strength_mps, edit.arrows()[*root].strength_mps);
     EXPECT_NE(b.id, b.parent);
     EXPECT_FALSE(edit.add({1, 1}, {1.01, 1})) << "too short";
     EXPECT_FALSE(edit.branch(*root, {4, 6}));
@@ -89,10 +89,10 @@ TEST(ArrowEdit, NumbersStayInTheirRanges) {
     ArrowEdit edit(tree());
     edit.set_strength(0, 1e9);
     edit.set_radius(0, -4);
-    EXPECT_EQ(edit.arrows()[0].strength_ms, 300);
+    EXPECT_EQ(edit.arrows()[0].strength_mps, 300);
     EXPECT_EQ(edit.arrows()[0].radius_m, 0.01);
     edit.set_strength(0, NAN);
-    EXPECT_EQ(edit.arrows()[0].strength_ms, 300);
+    EXPECT_EQ(edit.arrows()[0].strength_mps, 300);
 }
 
 TEST(ArrowEdit, FindsTheNearestPoint) {
@@ -144,14 +144,14 @@ const std::string kText = R"(# A scene, by hand: übermäßig kommentiert.
 elevation = "height.tif"   # the hill
 
 [wind]
-speed_ms = 3 # [[wind.arrow]] in a comment
+speed_mps = 3 # [[wind.arrow]] in a comment
 
 # The trunk.
 [[wind.arrow]]
 id = "trunk"               # ä: a name
 root = [0, 0]
 tip = [10.0, 0]            # to the wood
-strength_ms = 5.0
+strength_mps = 5.0
 radius_m = 2
 
 [[wind.arrow]]
@@ -162,7 +162,7 @@ tip = [
     15,
     -5, # north
 ]
-strength_ms = 5
+strength_mps = 5
 radius_m = 2
 start_s = 1.5
 # The barn.
@@ -174,7 +174,7 @@ id = "right"
 parent = "trunk"
 root = [10, 0]
 tip = [15, 5]
-strength_ms = 5
+strength_mps = 5
 [camera.road]
 position = [0, 1.7, 0]     # last line, no newline)";
 
@@ -194,6 +194,21 @@ TEST(ArrowText, NothingChangedIsTheSameBytes) {
     EXPECT_EQ(saved(kText, arrows_of(kText)), kText);
 }
 
+TEST(ArrowText, OlderSpellingsOfSpeedsAreRead) {
+    const auto scene = parse_scene(replaced(replaced(kText, "speed_mps = 3", "speed_ms = 7"), "strength_mps = 5.0", "strength_ms = 2"), "s.toml");
+    EXPECT_EQ(scene.wind.speed_mps, 7);
+    EXPECT_EQ(scene.wind.arrows.at(0).strength_mps, 2);
+    EXPECT_THROW(static_cast<void>(arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = -7"))), sward::base::Error);
+    EXPECT_THROW(static_cast<void>(arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = 7\nspeed_mps = 3"))), sward::base::Error) << "one of the two";
+}
+
+TEST(ArrowText, AnOlderFileKeepsItsSpelling) {
+    const std::string old = replaced(kText, "strength_mps = 5.0\n", "strength_ms = 5.0\n");
+    auto arrows = arrows_of(old);
+    arrows[0].strength_mps = 6;
+    EXPECT_EQ(saved(old, arrows), replaced(old, "strength_ms = 5.0", "strength_ms = 6"));
+}
+
 TEST(ArrowText, ChangesOnlyTheValuesThatChanged) {
     auto arrows = arrows_of(kText);
     arrows[0].tip = {11, 0.5};
@@ -203,7 +218,7 @@ TEST(ArrowText, ChangesOnlyTheValuesThatChanged) {
     std::string expected = replaced(kText, "[10.0, 0]            # to", "[11, 0.5]            # to");
     expected = replaced(expected, "root = [10, 0]", "root = [11, 0.5]");
     expected = replaced(expected, "[\n    15,\n    -5, # north\n]", "[15, -6]");
-    expected = replaced(expected, "tip = [15, 5]\nstrength_ms = 5\n", "tip = [15, 5]\nstrength_ms = 5\nradius_m = 3\n");
+    expected = replaced(expected, "tip = [15, 5]\nstrength_mps = 5\n", "tip = [15, 5]\nstrength_mps = 5\nradius_m = 3\n");
     EXPECT_EQ(saved(kText, arrows), expected);
     EXPECT_EQ(arrows_of(expected), arrows);
 }
@@ -216,8 +231,8 @@ TEST(ArrowText, CutsAndAppendsBlocks) {
     EXPECT_EQ(arrows_of(text), arrows);
     EXPECT_NE(text.find("# The barn.\n[[wind.obstacle]]"), std::string::npos) << "the next block's comment stays";
     EXPECT_EQ(text.find("north"), std::string::npos);
-    EXPECT_NE(text.find("strength_ms = 5\n\n[[wind.arrow]]\nid = \"new\"\nparent = \"trunk\"\nroot = [10, 0]\ntip = [12.25, 7]\n"
-                        "strength_ms = 5\nradius_m = 2\n[camera.road]"),
+    EXPECT_NE(text.find("strength_mps = 5\n\n[[wind.arrow]]\nid = \"new\"\nparent = \"trunk\"\nroot = [10, 0]\ntip = [12.25, 7]\n"
+                        "strength_mps = 5\nradius_m = 2\n[camera.road]"),
               std::string::npos)
         << text;
     const std::string bare = saved(kText, {});
@@ -297,9 +312,9 @@ TEST(ArrowText, SavingIsWholeOrNot) {
     EXPECT_EQ(message({arrow("a", "", {0, 0}, {1, 0})}), "saved");
     EXPECT_EQ(load_scene(file).wind.arrows.size(), 1u);
     // A form that cannot be replaced, an arrow that no file may hold, a file that is broken: told, and left alone.
-    const std::string line = "[terrain]\nelevation = \"a\"\n[wind]\narrow = [{ id = \"a\", root = [0, 0], tip = [1, 0], strength_ms = 1 }]\n";
+    const std::string line = "[terrain]\nelevation = \"a\"\n[wind]\narrow = [{ id = \"a\", root = [0, 0], tip = [1, 0], strength_mps = 1 }]\n";
     for (const auto& [text, piece] : {std::pair<std::string, std::string>{line, "wind.arrow: found an array in one line"},
-                                      {"wind = { speed_ms = 4 }\n[terrain]\nelevation = \"a\"\n", "not valid TOML"},
+                                      {"wind = { speed_mps = 4 }\n[terrain]\nelevation = \"a\"\n", "not valid TOML"},
                                       {"[terrain", "not valid TOML"}}) {
         put(text);
         EXPECT_NE(message({arrow("b", "", {0, 0}, {1, 0})}).find(piece), std::string::npos) << message({});

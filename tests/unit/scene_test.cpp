@@ -102,7 +102,7 @@ density = 0.75
 azimuth_deg = 200.5
 elevation_deg = -4
 [wind]
-speed_ms = 12
+speed_mps = 12
 direction_deg = 90
 gust = 1
 seed = 11
@@ -116,14 +116,14 @@ dissipation_per_s = 0.2
 id = "a"
 root = [0, 0]
 tip = [5, 0]
-strength_ms = 8
+strength_mps = 8
 radius_m = 6
 [[wind.arrow]]
 id = "b"
 parent = "a"
 root = [5, 0]
 tip = [9, 4]
-strength_ms = 3
+strength_mps = 3
 [[wind.obstacle]]
 box = [1, 2, 3, 4, 45]
 [[wind.obstacle]]
@@ -192,7 +192,7 @@ far_end_m = 400
 TEST_F(SceneFile, UnknownKeysNameTheNearest) {
     EXPECT_EQ(error(kTerrain + "detial_m = 1\n"),
               "scene.toml:3: unknown key: found terrain.detial_m, expected terrain.detail_m");
-    EXPECT_EQ(error(kTerrain + "[wnid]\nspeed_ms = 1\n"),
+    EXPECT_EQ(error(kTerrain + "[wnid]\nspeed_mps = 1\n"),
               "scene.toml:3: unknown key: found wnid, expected wind");
     EXPECT_EQ(error(kTerrain + "[camera.road]\nposition = [0, 1, 0]\nfov = 60\n"),
               "scene.toml:5: unknown key: found camera.road.fov, expected camera.road.fov_deg");
@@ -200,7 +200,7 @@ TEST_F(SceneFile, UnknownKeysNameTheNearest) {
               "scene.toml:4: unknown key: found sun.something_else, expected one of azimuth_deg, "
               "elevation_deg");
     EXPECT_EQ(error(kTerrain +
-                    "[[wind.arrow]]\nid = \"a\"\nroot = [0, 0]\ntop = [1, 0]\nstrength_ms = 1\n"),
+                    "[[wind.arrow]]\nid = \"a\"\nroot = [0, 0]\ntop = [1, 0]\nstrength_mps = 1\n"),
               "scene.toml:6: unknown key: found wind.arrow[0].top, expected wind.arrow[0].tip");
 }
 
@@ -208,10 +208,10 @@ TEST_F(SceneFile, ValuesAreCheckedForTypeAndRange) {
     const auto in_wind = [&](const std::string& line) {
         return error(kTerrain + "[wind]\n" + line + "\n");
     };
-    EXPECT_EQ(in_wind("speed_ms = -1"),
-              "scene.toml:4: wind.speed_ms: found -1, expected a number from 0 to 150 m/s");
-    EXPECT_EQ(in_wind("speed_ms = nan"),
-              "scene.toml:4: wind.speed_ms: found nan, expected a number from 0 to 150 m/s");
+    EXPECT_EQ(in_wind("speed_mps = -1"),
+              "scene.toml:4: wind.speed_mps: found -1, expected a number from 0 to 150 m/s");
+    EXPECT_EQ(in_wind("speed_mps = nan"),
+              "scene.toml:4: wind.speed_mps: found nan, expected a number from 0 to 150 m/s");
     EXPECT_EQ(in_wind("gust = inf"),
               "scene.toml:4: wind.gust: found inf, expected a number from 0 to 1");
     EXPECT_EQ(in_wind("gust = \"strong\""),
@@ -340,13 +340,13 @@ TEST_F(SceneFile, ObjectsNameKindsAndPathsThatExist) {
 
 std::string arrow(const std::string& id, const std::string& parent) {
     return "[[wind.arrow]]\nid = \"" + id + "\"\nparent = \"" + parent +
-           "\"\nroot = [0, 0]\ntip = [1, 0]\n" + "strength_ms = 1\n";
+           "\"\nroot = [0, 0]\ntip = [1, 0]\n" + "strength_mps = 1\n";
 }
 
 TEST_F(SceneFile, ArrowParentsExistAndEnd) {
     const auto first = [](const std::string& id) {
         return "[[wind.arrow]]\nid = \"" + id +
-               "\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_ms = 1\n";
+               "\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_mps = 1\n";
     };
     EXPECT_EQ(error(kTerrain + arrow("a", "b") + arrow("b", "a")),
               "scene.toml:5: wind.arrow[0].parent: found \"b\", which leads back to itself, "
@@ -368,7 +368,7 @@ TEST_F(SceneFile, ArrowParentsExistAndEnd) {
     EXPECT_EQ(error(chain + arrow("last", "n0"), ExitCode::kOverLimit),
               "scene.toml:3: wind.arrow: found 1025 entries, expected at most 1024");
     EXPECT_NE(error(kTerrain +
-                    "[[wind.arrow]]\nid = \"a\"\nroot = [1, 0]\ntip = [1, 0]\nstrength_ms = 1\n")
+                    "[[wind.arrow]]\nid = \"a\"\nroot = [1, 0]\ntip = [1, 0]\nstrength_mps = 1\n")
                   .find("wind.arrow[0].tip: found the root's own place"),
               std::string::npos);
 }
@@ -409,7 +409,7 @@ TEST_F(SceneFile, ManyNumbersInALineAreNoDeepKey) {
 }
 
 TEST_F(SceneFile, EveryTruncationIsAnErrorOrAWholeScene) {
-    std::string text = kTerrain + "[wind]\nspeed_ms = 4.5\n" + arrow("a", "b") + arrow("b", "a") +
+    std::string text = kTerrain + "[wind]\nspeed_mps = 4.5\n" + arrow("a", "b") + arrow("b", "a") +
                        "[camera.road]\nposition = [0, 1.7, 0]\n[path.p]\nkeys = [{ t = 0, position "
                        "= [0, 0, 0] }]\n";
     for (std::size_t n = 0; n < text.size(); ++n) {

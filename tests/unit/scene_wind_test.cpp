@@ -45,14 +45,14 @@ protected:
 TEST_F(WindSection, StepsAndArrowsThatMeanNothingAreRefused) {
     for (const char* step : {"0", "10", "-0.01", "nan", "inf"})
         EXPECT_NE(error(std::string("[wind]\nstep_s = ") + step + "\n").find("wind.step_s: found "), std::string::npos) << step;
-    const std::string arrow = "[[wind.arrow]]\nid = \"a\"\nroot = [1, 1]\nstrength_ms = 8\ntip = ";
+    const std::string arrow = "[[wind.arrow]]\nid = \"a\"\nroot = [1, 1]\nstrength_mps = 8\ntip = ";
     EXPECT_NE(error(arrow + "[1, 1]\n").find("wind.arrow[0].tip"), std::string::npos);
     EXPECT_EQ(error(arrow + "[1, 2]\n"), "no error");
 }
 
 TEST_F(WindSection, ReadsSpansOfArrows) {
-    const Scene scene = load("[[wind.arrow]]\nid = \"a\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_ms = 3\n"
-                             "[[wind.arrow]]\nid = \"b\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_ms = 3\n"
+    const Scene scene = load("[[wind.arrow]]\nid = \"a\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_mps = 3\n"
+                             "[[wind.arrow]]\nid = \"b\"\nroot = [0, 0]\ntip = [1, 0]\nstrength_mps = 3\n"
                              "start_s = 2\nend_s = 5.5\n");
     ASSERT_EQ(scene.wind.arrows.size(), 2u);
     EXPECT_EQ(scene.wind.arrows[0].start_s, 0);
@@ -72,14 +72,14 @@ mass_kg = 2200
 kind = "rotor"
 place = [1, 2]
 radius_m = 5
-strength_ms = 12
+strength_mps = 12
 height_m = 3
 reach_m = 40
 [[wind.source]]
 kind = "jet"
 place = [3, 4]
 yaw_deg = 90
-strength_ms = 20
+strength_mps = 20
 radius_m = 1.5
 length_m = 9
 [[wind.source]]
@@ -90,7 +90,7 @@ length_m = 15
 [[wind.source]]
 kind = "cyclone"
 place = [0, 0]
-strength_ms = 30
+strength_mps = 30
 radius_m = 8
 inflow = 0.3
 clockwise = true
@@ -98,16 +98,16 @@ clockwise = true
 kind = "wave"
 place = [0, 0]
 yaw_deg = 10
-strength_ms = 4
+strength_mps = 4
 radius_m = 100
 wavelength_m = 15
-travel_ms = 6
+travel_mps = 6
 start_s = 1
 end_s = 20
 [[wind.source]]
 kind = "fan"
 place = [-4, 0]
-strength_ms = 6
+strength_mps = 6
 radius_m = 2
 )");
     const auto& s = scene.wind.sources;
@@ -123,11 +123,11 @@ radius_m = 2
     EXPECT_EQ(s[1].reach_m, 40);
     EXPECT_EQ(s[2].where.yaw_deg, 90);
     EXPECT_EQ(s[2].length_m, 9);
-    EXPECT_FALSE(s[3].strength_ms);
+    EXPECT_FALSE(s[3].strength_mps);
     EXPECT_EQ(s[4].inflow, 0.3);
     EXPECT_TRUE(s[4].clockwise);
     EXPECT_EQ(s[5].wavelength_m, 15);
-    EXPECT_EQ(*s[5].travel_ms, 6);
+    EXPECT_EQ(*s[5].travel_mps, 6);
     EXPECT_EQ(s[5].start_s, 1);
     EXPECT_EQ(s[5].end_s, 20);
     EXPECT_EQ(s[6].where.place, glm::dvec2(-4, 0));
@@ -139,31 +139,31 @@ TEST_F(WindSection, RefusesSourcesThatCannotBe) {
               "s.toml:4: wind.source[0].kind: found \"roter\", expected \"rotor\"");
     EXPECT_EQ(source("kind = \"tornado-like\"\n"), "s.toml:4: wind.source[0].kind: found \"tornado-like\", expected one of "
                                                    "rotor, jet, wake, cyclone, wave, fan");
-    EXPECT_EQ(source("kind = \"fan\"\nstrength_ms = 3\nradius_m = 2\n"),
+    EXPECT_EQ(source("kind = \"fan\"\nstrength_mps = 3\nradius_m = 2\n"),
               "s.toml:3: wind.source[0]: found neither, expected either place or path");
     EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nradius_m = 2\n"),
-              "s.toml:3: wind.source[0].strength_ms: found nothing, expected this key");
-    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_ms = nan\nradius_m = 2\n"),
-              "s.toml:6: wind.source[0].strength_ms: found nan, expected a number from 0 to 300 m/s");
-    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_ms = 3\nradius_m = 0\n"),
+              "s.toml:3: wind.source[0].strength_mps: found nothing, expected this key");
+    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_mps = nan\nradius_m = 2\n"),
+              "s.toml:6: wind.source[0].strength_mps: found nan, expected a number from 0 to 300 m/s");
+    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_mps = 3\nradius_m = 0\n"),
               "s.toml:7: wind.source[0].radius_m: found 0, expected a number from 0.05 to 1000 m");
-    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_ms = 3\nradius_m = 2\nreach_m = 2\n"),
+    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_mps = 3\nradius_m = 2\nreach_m = 2\n"),
               "s.toml:8: wind.source[0].reach_m: found 2, expected more than radius_m, 2");
-    EXPECT_EQ(source("kind = \"fan\"\npath = \"rol\"\nstrength_ms = 3\nradius_m = 2\n" + kRoll),
+    EXPECT_EQ(source("kind = \"fan\"\npath = \"rol\"\nstrength_mps = 3\nradius_m = 2\n" + kRoll),
               "s.toml:5: wind.source[0].path: found \"rol\", expected \"roll\"");
-    EXPECT_EQ(source("kind = \"rotor\"\nplace = [0, 0]\nheight_m = 2\nradius_m = 2\nstrength_ms = 4\nmass_kg = 500\n"),
-              "s.toml:3: wind.source[0]: found both, expected either strength_ms or mass_kg");
-    EXPECT_EQ(source("kind = \"rotor\"\nplace = [0, 0]\nradius_m = 2\nstrength_ms = 4\n"),
+    EXPECT_EQ(source("kind = \"rotor\"\nplace = [0, 0]\nheight_m = 2\nradius_m = 2\nstrength_mps = 4\nmass_kg = 500\n"),
+              "s.toml:3: wind.source[0]: found both, expected either strength_mps or mass_kg");
+    EXPECT_EQ(source("kind = \"rotor\"\nplace = [0, 0]\nradius_m = 2\nstrength_mps = 4\n"),
               "s.toml:3: wind.source[0].height_m: found nothing, expected this key");
     EXPECT_EQ(source("kind = \"wake\"\nplace = [0, 0]\nradius_m = 2\nlength_m = 5\n"),
-              "s.toml:3: wind.source[0].strength_ms: found nothing, expected this key");
-    EXPECT_EQ(source("kind = \"cyclone\"\nplace = [0, 0]\nradius_m = 2\nstrength_ms = 5\ninflow = 1.5\n"),
+              "s.toml:3: wind.source[0].strength_mps: found nothing, expected this key");
+    EXPECT_EQ(source("kind = \"cyclone\"\nplace = [0, 0]\nradius_m = 2\nstrength_mps = 5\ninflow = 1.5\n"),
               "s.toml:8: wind.source[0].inflow: found 1.5, expected a number from 0 to 1");
-    EXPECT_NE(source("kind = \"fan\"\nplace = [0, 0]\nstrength_ms = 3\nradius_m = 2\nwavelength_m = 3\n")
+    EXPECT_NE(source("kind = \"fan\"\nplace = [0, 0]\nstrength_mps = 3\nradius_m = 2\nwavelength_m = 3\n")
                   .find("s.toml:8: unknown key: found wind.source[0].wavelength_m"),
               std::string::npos)
         << "a key of another kind";
-    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_ms = 3\nradius_m = 2\nstart_s = 4\nend_s = 4\n"),
+    EXPECT_EQ(source("kind = \"fan\"\nplace = [0, 0]\nstrength_mps = 3\nradius_m = 2\nstart_s = 4\nend_s = 4\n"),
               "s.toml:9: wind.source[0].end_s: found 4, expected more than start_s, 4");
 }
 

@@ -338,7 +338,7 @@ TEST(Pose, HalfwayIsBetweenBoth) {
 }
 
 TEST(Blade, OutlineTapersAboutTheMiddle) {
-    const vec4 grass(2, 1, 1, 1);
+    const BladeOutline grass{2, 1, 1, 1};
     for (const float v : {0.0f, 0.3f, 0.8f, 1.0f}) {
         const float left = blade_outline(0.0f, v, grass), right = blade_outline(1.0f, v, grass);
         EXPECT_FLOAT_EQ(blade_outline(0.5f, v, grass), 0.5f);
@@ -348,7 +348,7 @@ TEST(Blade, OutlineTapersAboutTheMiddle) {
 }
 
 TEST(Blade, AHeadStandsOnItsStalk) {
-    const vec4 flower(8, 0.1f, 0.8f, 0.5f);
+    const BladeOutline flower{8, 0.1f, 0.8f, 0.5f};
     EXPECT_NEAR(blade_width_at(0.4f, flower), 0.1f, 1e-3f);
     EXPECT_NEAR(blade_width_at(0.9f, flower), 1, 1e-6f); // the head's middle
     EXPECT_NEAR(blade_width_at(0.85f, flower), std::sqrt(0.75f), 1e-5f); // an ellipse
@@ -357,7 +357,7 @@ TEST(Blade, AHeadStandsOnItsStalk) {
     EXPECT_FLOAT_EQ(blade_station(0.5f, flower), 0.8f);
     for (int i = 0; i < 16; ++i)
         EXPECT_LT(blade_station(static_cast<float>(i) / 16, flower), blade_station(static_cast<float>(i + 1) / 16, flower));
-    EXPECT_FLOAT_EQ(blade_station(0.3f, vec4(2, 1, 1, 1)), 0.3f);
+    EXPECT_FLOAT_EQ(blade_station(0.3f, {2, 1, 1, 1}), 0.3f);
 }
 
 TEST(Blade, TangentIsTheCurvesDerivative) {

@@ -150,7 +150,7 @@ TEST(Physics, RecoversInTheTimeThatItsParametersImply) {
     for (const float stiffness : {0.3f, 0.5f, 0.7f, 0.9f}) {
         for (const float eta : {0.0f, 0.5f, 0.95f, 1.4f, 2.0f}) {
             BladeStep weightless = plain_blade_step(kStep_s, kCanopy_m, kResponse);
-            weightless.down.w = 0;
+            weightless.gravity_mps2 = 0;
             Living living(record_of(0.25f, 0, vec2(0), stiffness), weightless);
             vec3 aside(0.02f, 0.249f, 0); // a small lean: J5.3 hardly acts, and the closed form holds
             settle_blade(living.body, aside);
@@ -312,12 +312,13 @@ TEST(Physics, WhatCannotBeLeavesABladeWhole) {
 
 TEST(Physics, GravityTowardACentrePullsThere) {
     BladeStep rules = plain_blade_step(kStep_s, kCanopy_m, kResponse);
-    rules.centre = vec4(10, 0, 0, kStandardGravity);
-    rules.memory.w = 1; // of the centre alone
+    rules.centre = vec3(10, 0, 0);
+    rules.centre_mps2 = kStandardGravity;
+    rules.centre_share = 1; // of the centre alone
     const vec3 pull = blade_gravity(rules, vec3(0), vec3(0, 0, 1), 0.01f);
     EXPECT_NEAR(pull.x, 0.0981f, 1e-6f);
     EXPECT_NEAR(pull.z, 0.25f * 0.0981f, 1e-6f); // the front's quarter
-    rules.memory.w = 0;
+    rules.centre_share = 0;
     EXPECT_NEAR(blade_gravity(rules, vec3(0), vec3(0, 0, 1), 0.01f).y, -0.0981f, 1e-6f);
 }
 

@@ -232,20 +232,20 @@ TEST_F(FarInstances, EverySlicePlaneOfABlockIsThereOnce) {
     const std::vector<terrain::VisibleBlock> blocks = {
         block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({-24, -4}, 1.0f)};
     const auto list = select(blocks);
-    std::map<std::pair<int, float>, int> count; // of axis and block
+    std::map<std::pair<int, int>, int> count; // of axis and block
     for (const shared::FarInstance& slice : list.slices[0]) {
-        const auto& block = blocks[static_cast<std::size_t>(slice.place.y)];
-        const int axis = slice.image.z;
-        EXPECT_GE(slice.place.x, block.corner[axis]);
-        EXPECT_LT(slice.place.x, block.corner[axis] + 8 * block.cell);
-        ++count[{axis, slice.place.y}];
+        const auto& block = blocks[static_cast<std::size_t>(slice.block)];
+        const int axis = slice.axis;
+        EXPECT_GE(slice.place_m, block.corner[axis]);
+        EXPECT_LT(slice.place_m, block.corner[axis] + 8 * block.cell);
+        ++count[{axis, slice.block}];
         // The plane shows the image of its own place in the patch.
         const double in_patch = std::fmod(
-            slice.place.x + query_.patch_offset[axis] + 1000.0 * set_.side_m, set_.side_m);
+            slice.place_m + query_.patch_offset[axis] + 1000.0 * set_.side_m, set_.side_m);
         const int slices = set_.levels[0].slice_count;
         const int expected = static_cast<int>(in_patch / set_.side_m * slices);
-        EXPECT_EQ(slice.image.x, shared::slice_index(0, axis, expected, slices, shared::kPlaneId));
-        EXPECT_EQ(slice.image.y, shared::slice_index(1, axis, expected, slices, 0) -
+        EXPECT_EQ(slice.image, shared::slice_index(0, axis, expected, slices, shared::kPlaneId));
+        EXPECT_EQ(slice.planes, shared::slice_index(1, axis, expected, slices, 0) -
                                      shared::slice_index(0, axis, expected, slices, 0));
     }
     EXPECT_EQ(count.size(), 6u);
@@ -262,8 +262,8 @@ TEST_F(FarInstances, NeighboursShareNoPlaneAndLeaveNoGap) {
         select({block_at({8, 8}, 0.5f), block_at({12, 8}, 0.5f), block_at({16, 8}, 0.5f)});
     std::set<float> planes;
     for (const shared::FarInstance& slice : list.slices[0]) {
-        if (slice.image.z == shared::kAxisX) {
-            EXPECT_TRUE(planes.insert(slice.place.x).second) << slice.place.x;
+        if (slice.axis == shared::kAxisX) {
+            EXPECT_TRUE(planes.insert(slice.place_m).second) << slice.place_m;
         }
     }
     const float gap = set_.side_m / static_cast<float>(set_.levels[0].slice_count);
@@ -279,9 +279,9 @@ TEST_F(FarInstances, ShellsLieAtTheMiddleOfTheirSlabsFromTheTopDown) {
     ASSERT_EQ(list.shells[0].size(), 4u);
     for (int n = 0; n < 4; ++n) {
         const shared::FarInstance& shell = list.shells[0][static_cast<std::size_t>(n)];
-        EXPECT_NEAR(shell.place.x, (3.5f - static_cast<float>(n)) / 4 * set_.canopy_m, 1e-6f);
-        EXPECT_EQ(shell.image.x, shared::layer_index(0, 3 - n, 4, shared::kPlaneId));
-        EXPECT_EQ(shell.image.y, shared::layer_index(1, 0, 4, 0));
+        EXPECT_NEAR(shell.place_m, (3.5f - static_cast<float>(n)) / 4 * set_.canopy_m, 1e-6f);
+        EXPECT_EQ(shell.image, shared::layer_index(0, 3 - n, 4, shared::kPlaneId));
+        EXPECT_EQ(shell.planes, shared::layer_index(1, 0, 4, 0));
     }
 }
 
@@ -327,14 +327,14 @@ TEST_F(FarInstances, AFamilySeenEdgeOnIsLeftOutButNeverOneThatShows) {
                              block_at({query_.eye.x + 0.5f, query_.eye.z + 300}, 0.1f)});
     for (const auto& level : far.slices) {
         for (const shared::FarInstance& slice : level) {
-            EXPECT_EQ(slice.image.z, shared::kAxisZ);
+            EXPECT_EQ(slice.axis, shared::kAxisZ);
         }
     }
     // Around the eye every family shows.
     const auto around = select({block_at({query_.eye.x - 2, query_.eye.z - 2}, 0.5f)});
     std::set<int> axes;
     for (const shared::FarInstance& slice : around.slices[0]) {
-        axes.insert(slice.image.z);
+        axes.insert(slice.axis);
     }
     EXPECT_EQ(axes.size(), 2u);
 }

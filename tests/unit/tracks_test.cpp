@@ -24,9 +24,9 @@ using tracks::TrackTwin;
 constexpr float kStep = shared::kTrackStep_s;
 constexpr int kSide = shared::kTrackCells;
 
-TrackRules plain_rules(float wave_ms, float damping, float k, float gain = 0) {
+TrackRules plain_rules(float wave_mps, float damping, float k, float gain = 0) {
     scene::TrackSpec spec;
-    spec.wave_ms = static_cast<double>(wave_ms);
+    spec.wave_mps = static_cast<double>(wave_mps);
     spec.damping = static_cast<double>(damping);
     spec.recovery_per_s2 = static_cast<double>(k);
     spec.wave_gain_m = static_cast<double>(gain);
@@ -56,10 +56,10 @@ double crest(TrackTwin& field, int from) {
 TEST(Tracks, AFrontRunsAtItsSpeed) {
     for (const float speed : {1.0f, 4.0f, 8.0f}) {
         TrackRules rules = plain_rules(speed, 0.01f, 0);
-        rules.grid.x = speed / 16; // so that it runs a few cells before damping has it
+        rules.cell_m = speed / 16; // so that it runs a few cells before damping has it
         TrackTwin field;
         raise_wall(field, 30, 4);
-        const double cells_a_step = static_cast<double>(speed * kStep / rules.grid.x);
+        const double cells_a_step = static_cast<double>(speed * kStep / rules.cell_m);
         const int early = static_cast<int>(16 / cells_a_step), late = static_cast<int>(52 / cells_a_step);
         double first = 0;
         for (int n = 1; n <= late; ++n) {
@@ -97,7 +97,7 @@ TEST(Tracks, ATipBendsAsItsRootDidAWhileAgo) {
         root.push_back(theta(58));
         const int ago = static_cast<int>(shared::kDelay_s / kStep + 0.5f);
         if (n > 80) { // the wave is there
-            EXPECT_NEAR(theta(58 + shared::kDelay_s * speed / rules.grid.x), root[static_cast<std::size_t>(n - ago)], 0.02f) << n;
+            EXPECT_NEAR(theta(58 + shared::kDelay_s * speed / rules.cell_m), root[static_cast<std::size_t>(n - ago)], 0.02f) << n;
         }
     }
     EXPECT_GT(*std::max_element(root.begin() + 80, root.end()), 0.1f);
@@ -115,7 +115,7 @@ double energy(TrackTwin& before, TrackTwin& now, const TrackRules& rules) {
             TrackCell still = before.at(x, z);
             still.theta_step = still.omega_step = {0, 0};
             const glm::vec4 drawn = -shared::track_change(rules, still, beside(x - 1, z), beside(x + 1, z), beside(x, z - 1), beside(x, z + 1)) /
-                                    (1 - 0.5f * rules.grid.z);
+                                    (1 - 0.5f * rules.damping);
             const TrackCell& next = now.at(x, z);
             const glm::vec4 change(next.theta_step, next.omega_step), place(next.theta, next.omega);
             sum += 0.5 * static_cast<double>(glm::dot(change, change) + glm::dot(place, drawn));
@@ -128,7 +128,7 @@ TEST(Tracks, EnergyNeverGrows) {
     for (const float damping : {0.01f, 0.3f, 1.0f}) {
         for (const float k : {0.0f, 8.0f, 900.0f}) {
             TrackRules rules = plain_rules(1, damping, k);
-            rules.waves.x = rules.waves.y = rules.waves.w; // at the very bound
+            rules.wave_mps = rules.rate_wave_mps = rules.most_wave_mps; // at the very bound
             TrackTwin field;
             unsigned random = 1;
             for (TrackCell& cell : field.cells) {
@@ -198,10 +198,13 @@ TEST(Tracks, AUniformBendRisesAtTheRateOfK) {
 
 shared::TrackPrint print_at(float x, float before_x, float z, glm::vec4 shape, int kind) {
     shared::TrackPrint print{};
-    print.now = {x, z, 0, 1}; // looks east
-    print.before = {before_x, z, 0, 1};
-    print.shape = shape;
-    print.kind.x = kind;
+    print.now = {{x, z}, {0, 1}}; // looks east
+    print.before = {{before_x, z}, {0, 1}};
+    print.half_width_m = shape.x;
+    print.half_depth_m = shape.y;
+    print.underside_m = shape.z;
+    print.load = shape.w;
+    print.kind = kind;
     return print;
 }
 
@@ -213,7 +216,7 @@ glm::ivec3 strip(float speed, glm::vec4 shape, int kind) {
         const shared::TrackPrint print = print_at(x + speed * kStep, x, 16.1f, shape, kind);
         for (int row = 56; row < 74; ++row) {
             for (int column = 40; column < 80; ++column) {
-                const shared::TrackContact contact = shared::track_contact(rules, print, rules.grid.x * (glm::vec2(column, row) + 0.5f));
+                const shared::TrackContact contact = shared::track_contact(rules, print, rules.cell_m * (glm::vec2(column, row) + 0.5f));
                 glm::vec2& cell = pressed[static_cast<std::size_t>(row * kSide + column)];
                 cell = contact.touched == 1 ? shared::track_pressed(rules, cell, contact, 1) : cell;
             }
@@ -356,9 +359,9 @@ TEST(Tracks, KeysOutOfRangeAreRefused) {
     EXPECT_NE(refusal("damping = 0").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = 1.5").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = nan").find("tracks.damping"), std::string::npos);
-    EXPECT_NE(refusal("wave_ms = 0.5").find("tracks.wave_ms"), std::string::npos);
+    EXPECT_NE(refusal("wave_mps = 0.5").find("tracks.wave_mps"), std::string::npos);
     EXPECT_NE(refusal("wave_gain_m = 2").find("tracks.wave_gain_m"), std::string::npos);
-    EXPECT_NE(refusal("cell_m = 0.05\nwave_ms = 3").find("tracks.wave_ms"), std::string::npos); // outside the stable bound
+    EXPECT_NE(refusal("cell_m = 0.05\nwave_mps = 3").find("tracks.wave_mps"), std::string::npos); // outside the stable bound
     EXPECT_NE(refusal("pages = 0").find("tracks.pages"), std::string::npos);
     EXPECT_NE(refusal("speed = 3").find("speed"), std::string::npos);
     EXPECT_EQ(refusal("mask = \"a.png\"\nmask_place = [0, 0]\nmask_size_m = [10, 20]"), "");

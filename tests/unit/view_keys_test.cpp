@@ -248,7 +248,7 @@ TEST(Weather, KeysTurnSunAndWindWithinTheirRanges) {
 
 TEST(CockpitLine, SaysWhatAPilotAsks) {
     CockpitFacts facts;
-    facts.speed_ms = 12.5;
+    facts.speed_mps = 12.5;
     facts.above_ground_m = 1.72;
     facts.heading_deg = -1;
     facts.p50_ms = 16.66;

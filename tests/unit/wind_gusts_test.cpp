@@ -97,13 +97,15 @@ TEST(WindPlaces, TapsOfATileWrapAround) {
 
 TEST(WindPlaces, TheWindowFadesToItsRim) {
     shared::WindField field{};
-    field.window = {0, 0, 2, 100};
-    field.blend = {0, 0, 1, 10};
+    field.window_per_m = 2;
+    field.window_cells = 100;
+    field.window_share = 1;
+    field.window_rim = 10;
     EXPECT_EQ(shared::wind_window_share(field, {50, 50}), 1);
     EXPECT_EQ(shared::wind_window_share(field, {3, 50}), 0);
     EXPECT_EQ(shared::wind_window_share(field, {50, -400}), 0);
     EXPECT_NEAR(shared::wind_window_share(field, {50, 91}), 0.5, 1e-6);
-    field.window.w = 0;
+    field.window_cells = 0;
     EXPECT_EQ(shared::wind_window_share(field, {50, 50}), 0);
 }
 

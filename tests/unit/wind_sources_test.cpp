@@ -20,14 +20,14 @@ using Source = scene::WindSource;
 
 scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip, double strength) {
     scene::WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_ms = strength, a.radius_m = 2;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength, a.radius_m = 2;
     return a;
 }
 
 Source source(Source::Kind kind, double strength, double radius) {
     Source s;
     s.kind = kind;
-    s.strength_ms = strength;
+    s.strength_mps = strength;
     s.radius_m = radius;
     return s;
 }
@@ -125,24 +125,24 @@ double divergence(const WindForce& force, glm::dvec2 at) {
 
 TEST(Forces, ARotorBlowsOutwardsInARing) {
     Source rotor = source(Source::Kind::kRotor, 0, 5);
-    rotor.strength_ms.reset();
+    rotor.strength_mps.reset();
     rotor.mass_kg = 2200;
     rotor.height_m = 3;
     const WindForce force = only_force(list_of({}, {rotor}));
     // Momentum theory: v = sqrt(m g / (2 rho pi R^2)) = 10.59 m/s, twice that far below.
-    EXPECT_NEAR(rotor_outwash(rotor, 0).speed_ms, 21.18, 0.05);
-    EXPECT_NEAR(force.push.x, 21.1, 0.1);
-    const float ring = force.extent.x;
+    EXPECT_NEAR(rotor_outwash(rotor, 0).speed_mps, 21.18, 0.05);
+    EXPECT_NEAR(force.speed_mps, 21.1, 0.1);
+    const float ring = force.radius_m;
     EXPECT_NEAR(ring, 5.3, 0.1);
     const auto radial = [&](double r) { return shared::wind_force_at(force, vec2(r * 0.6, r * 0.8)).outflow; };
-    EXPECT_NEAR(glm::length(radial(ring)), force.push.x, 0.01);
+    EXPECT_NEAR(glm::length(radial(ring)), force.speed_mps, 0.01);
     EXPECT_NEAR(radial(ring).x / radial(ring).y, 0.75, 1e-4);
     EXPECT_LT(glm::length(radial(0.1)), 1) << "calm below the hub";
     EXPECT_LT(glm::length(radial(0.8 * ring)), glm::length(radial(ring)));
-    EXPECT_NEAR(glm::length(radial(2.5 * ring)) * 2.5, force.push.x * 1.398, 0.05) << "1 / r";
-    EXPECT_EQ(glm::length(radial(force.extent.y * 1.01)), 0);
+    EXPECT_NEAR(glm::length(radial(2.5 * ring)) * 2.5, force.speed_mps * 1.398, 0.05) << "1 / r";
+    EXPECT_EQ(glm::length(radial(force.reach_m * 1.01)), 0);
     EXPECT_GT(divergence(force, {1, 0}), 1) << "air comes down inside";
-    EXPECT_LT(divergence(force, {0.75 * force.extent.y, 0}), 0) << "and leaves far out";
+    EXPECT_LT(divergence(force, {0.75 * force.reach_m, 0}), 0) << "and leaves far out";
     EXPECT_FALSE(relaxes(force)) << "it adds to the wind, it does not brake it";
     EXPECT_TRUE(brings_air(force));
 }
@@ -150,17 +150,17 @@ TEST(Forces, ARotorBlowsOutwardsInARing) {
 TEST(Forces, HeightWeakensAndWidensTheOutwash) {
     const Source rotor = source(Source::Kind::kRotor, 20, 5);
     const Outwash low = rotor_outwash(rotor, 1), high = rotor_outwash(rotor, 60), far = rotor_outwash(rotor, 600);
-    EXPECT_NEAR(low.speed_ms, 20, 0.1);
-    EXPECT_LT(high.speed_ms, 0.75 * low.speed_ms);
-    EXPECT_NEAR(far.speed_ms * far.radius_m, low.speed_ms * low.radius_m, 1e-9) << "momentum of a plane of air is kept";
-    EXPECT_NEAR(far.speed_ms, 20 * 42.43 / 600, 0.02) << "1 / height";
+    EXPECT_NEAR(low.speed_mps, 20, 0.1);
+    EXPECT_LT(high.speed_mps, 0.75 * low.speed_mps);
+    EXPECT_NEAR(far.speed_mps * far.radius_m, low.speed_mps * low.radius_m, 1e-9) << "momentum of a plane of air is kept";
+    EXPECT_NEAR(far.speed_mps, 20 * 42.43 / 600, 0.02) << "1 / height";
     // On a path above the datum the ground's height, 100 m here, is taken off.
     Paths paths;
     paths["p"].keys = {{0, {0, 103, 0}, 0, 0}};
     paths["p"].agl = false;
     Source carried = rotor;
     carried.where.path = "p";
-    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).push.x, rotor_outwash(rotor, 3).speed_ms, 1e-4);
+    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps, rotor_outwash(rotor, 3).speed_mps, 1e-4);
 }
 
 TEST(Forces, ACycloneTurnsAndDrawsIn) {
@@ -185,7 +185,7 @@ TEST(Forces, AWaveTravels) {
     Source wave = source(Source::Kind::kWave, 4, 100);
     wave.where.yaw_deg = 90; // east
     wave.wavelength_m = 15;
-    wave.travel_ms = 6;
+    wave.travel_mps = 6;
     const ForceList list = list_of({}, {wave});
     const auto flow = [&](double t, double x) {
         return shared::wind_force_at(only_force(list, t), vec2(x, 3)).outflow;
@@ -270,8 +270,8 @@ TEST(Forces, NothingActsOutsideItsBounds) {
             outside += acts && !in ? 1 : 0;
             acting += acts ? 1 : 0;
         }
-        EXPECT_EQ(outside, 0) << force.push.z;
-        EXPECT_GT(acting, 20) << force.push.z;
+        EXPECT_EQ(outside, 0) << force.kind;
+        EXPECT_GT(acting, 20) << force.kind;
     }
 }
 
@@ -412,14 +412,14 @@ TEST_F(Solids, MoveAndTurnWithTheirPath) {
     // Yaw 45 at 45 m: ahead is north-east. 10 degrees a second turn it.
     EXPECT_NEAR(later[0].place.x, 45 + 5 * std::sqrt(0.5), 0.01);
     EXPECT_NEAR(later[0].place.y, -5 * std::sqrt(0.5), 0.01);
-    EXPECT_NEAR(later[0].motion.z, 10 * std::numbers::pi / 180, 1e-3);
-    EXPECT_NEAR(later[0].motion.x, 10 + 5 * std::sqrt(0.5) * 10 * std::numbers::pi / 180, 0.01);
+    EXPECT_NEAR(later[0].turn_rad_s, 10 * std::numbers::pi / 180, 1e-3);
+    EXPECT_NEAR(later[0].velocity.x, 10 + 5 * std::sqrt(0.5) * 10 * std::numbers::pi / 180, 0.01);
     // Every point moves as the body does: place a second later by the velocity field.
     const double dt = 1e-3;
     const auto next = list.at(4.5 + dt, {0, 0});
     const vec2 own(1.5f, -0.5f);
     const auto world = [&](const shared::WindSolid& s) {
-        return vec2(s.place.x + s.place.z * own.x - s.place.w * own.y, s.place.y + s.place.w * own.x + s.place.z * own.y);
+        return vec2(s.place.x + s.heading.x * own.x - s.heading.y * own.y, s.place.y + s.heading.y * own.x + s.heading.x * own.y);
     };
     EXPECT_NEAR(glm::distance(shared::solid_frame(later[0], world(later[0])), own), 0, 1e-5);
     const vec2 moved = (world(next[0]) - world(later[0])) / static_cast<float>(dt);
