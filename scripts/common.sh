@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # What ./run and ./test share. Sourced, not run; needs `root`, the repository's directory.
 
-# What a bare Debian 12 needs to build and test Sward; docs/testing.md says what each is for.
+# What a bare Debian 12 needs to build and test Sward; cmake/SwardDependencies.cmake has the libraries, and what is not plain of them.
 packages=(
     g++ cmake ninja-build pkg-config ccache
     libglfw3-dev libglm-dev libtinygltf-dev libstb-dev libopenvdb-dev libboost-dev libopenimageio-dev libepoxy-dev

@@ -11,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
+#include "app/model_eye.h"
 #include "app/model_files.h"
 #include "app/paths.h"
 #include "app/turn_angles.h"
@@ -21,8 +22,7 @@
 namespace sward::app {
 namespace {
 
-constexpr double kMouseDegrees = 0.12;                   // a pixel
-constexpr double kChaseBack_m = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
+constexpr double kChaseBack = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
 constexpr double kChaseFollow_per_s = 4;                 // how fast the chase camera comes round
 constexpr double kChasePitch_deg = -9;
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
@@ -44,19 +44,20 @@ public:
             vehicle_.emplace(spec_, drive::DriveLand{moment.land.height, [this](double, double) { return surface_; }});
         if (!told_ || *told_ != pose.pose.position) { // a camera's key, or the beginning
             vehicle_->put(pose.pose.position.x, pose.pose.position.z, pose.pose.yaw_deg);
-            chase_yaw_ = pose.pose.yaw_deg;
+            eye_.begin(pose.pose.yaw_deg);
         }
         for (const Press& press : moment.input.presses)
             if (press.action == Action::kDriveCamera) {
                 camera_ = (camera_ + 1) % kCameras.size();
-                look_ = {0, 0};
+                eye_.look_ahead();
             }
         vehicle_->advance(moment.dt_s, pedals_of(moment.input));
-        look_ += glm::dvec2(moment.input.look_px.x, -moment.input.look_px.y) * kMouseDegrees;
+        eye_.look_aside(moment.input.look_px);
         place_eye(pose, moment);
         told_ = pose.pose.position;
     }
 
+    [[nodiscard]] std::optional<double> speed_mps() const override { return vehicle_ ? std::optional(glm::length(vehicle_->state().velocity_mps)) : std::nullopt; }
     [[nodiscard]] std::string note() const override {
         return fmt::format("{} on {}, {} camera", spec_.name, kSurfaceNames[static_cast<std::size_t>(surface_)], kCameras[camera_]);
     }
@@ -110,25 +111,20 @@ public:
 private:
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const drive::VehicleState state = vehicle_->state();
-        const Angles angles = angles_of(state.turn);
+        Angles sight = angles_of(state.turn);
         glm::dvec3 at = state.position + state.turn * spec_.eye_m;
-        Angles sight = angles;
         if (camera_ == 1) {
-            chase_yaw_ += std::remainder(angles.yaw - chase_yaw_, 360.0) * (1 - std::exp(-kChaseFollow_per_s * moment.dt_s));
-            const double yaw = (chase_yaw_ + look_.x) * kDegree, back = kChaseBack_m * spec_.size_m.z;
-            at = state.position + glm::dvec3(-std::sin(yaw) * back, spec_.size_m.y + kChaseUp_m, std::cos(yaw) * back);
-            sight = {chase_yaw_, kChasePitch_deg, 0};
-        } else if (camera_ == 2) { // beside the front wheel, towards it
+            const ModelEye::Chase chase{kChaseBack * spec_.size_m.z, spec_.size_m.y + kChaseUp_m, kChaseFollow_per_s, kChasePitch_deg};
+            eye_.come_round(sight.yaw, chase, moment.dt_s);
+            return eye_.put_behind(view, state.position, chase, moment.land);
+        }
+        if (camera_ == 2) { // beside the front wheel, towards it
             const drive::AxleSpec& axle = spec_.axles[0];
             at = state.position + state.turn * glm::dvec3(axle.track_m / 2 + 1.2, axle.radius_m + 0.5, -axle.ahead_m + 1.2);
             sight.yaw -= 45;
             sight.pitch -= 18;
         }
-        view.pose.position = at;
-        view.pose.yaw_deg = sight.yaw + look_.x - 360 * std::floor((sight.yaw + look_.x) / 360);
-        view.pose.pitch_deg = std::clamp(sight.pitch + look_.y, -89.9, 89.9);
-        view.roll_deg = sight.roll;
-        keep_above_ground(view.pose, moment.land.height(at.x, at.z));
+        eye_.put_on_board(view, at, sight, moment.land);
     }
 
     drive::VehicleSpec spec_;
@@ -137,8 +133,7 @@ private:
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0;
     std::size_t first_ = 0;          ///< of its objects in the scene
-    glm::dvec2 look_{0, 0};          ///< aside of the camera, degrees
-    double chase_yaw_ = 0;
+    ModelEye eye_;
 };
 
 } // namespace

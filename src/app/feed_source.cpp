@@ -121,6 +121,7 @@ public:
     [[nodiscard]] std::vector<Ball> bodies() const override { return source_->bodies(); }
     void add_objects(render::World& world) override { source_->add_objects(world); }
     [[nodiscard]] std::vector<Body> objects() const override { return source_->objects(); }
+    [[nodiscard]] std::optional<double> speed_mps() const override { return source_->speed_mps(); }
     [[nodiscard]] std::string note() const override { return source_->note(); }
 
 private:

@@ -146,7 +146,7 @@ void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
 
 std::string Flight::line() const {
     CockpitFacts facts;
-    facts.speed_mps = speed_mps_;
+    facts.speed_mps = source_.speed_mps().value_or(speed_mps_);
     facts.above_ground_m = pose_.pose.position.y - ground();
     facts.heading_deg = pose_.pose.yaw_deg;
     facts.p50_ms = times_.percentile(0.5);

@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
+#include "app/model_eye.h"
 #include "app/model_files.h"
 #include "app/paths.h"
 #include "app/turn_angles.h"
@@ -22,13 +23,12 @@
 namespace sward::app {
 namespace {
 
-constexpr double kMouseDegrees = 0.12;                 // a pixel
 constexpr double kNearGround_m = 4;                    // a pose lower than this begins on its wheels
 constexpr double kKeyThrow = 0.45;                     // of the whole: keys know no half
 constexpr double kKeyFollow_per_s = 5;                 // how fast the stick goes where a key sends it
 constexpr double kThrottleStep = 0.05;
 constexpr double kChaseBack = 1.9, kChaseUp = 0.35;    // of its length
-constexpr double kChaseFollow_per_s = 2.5;
+constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -8;
 constexpr double kBallRadius_m = 0.3;                  // of a wheel, as the grass feels it
 constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
 
@@ -44,7 +44,7 @@ public:
         for (const Press& press : moment.input.presses) {
             if (press.action == Action::kDriveCamera) {
                 camera_ = (camera_ + 1) % kCameras.size();
-                look_ = {0, 0};
+                eye_.look_ahead();
             } else if (press.action == Action::kMoreThrottle) {
                 throttle_ += kThrottleStep;
             } else if (press.action == Action::kLessThrottle) {
@@ -53,11 +53,12 @@ public:
         }
         throttle_ = std::clamp(throttle_ + kThrottleStep * moment.input.wheel, 0.0, 1.0);
         aeroplane_->advance(moment.dt_s, stick_of(moment));
-        look_ += glm::dvec2(moment.input.look_px.x, -moment.input.look_px.y) * kMouseDegrees;
+        eye_.look_aside(moment.input.look_px);
         place_eye(pose, moment);
         told_ = pose.pose.position;
     }
 
+    [[nodiscard]] std::optional<double> speed_mps() const override { return aeroplane_ ? std::optional(glm::length(aeroplane_->state().velocity_mps)) : std::nullopt; }
     [[nodiscard]] std::string note() const override {
         if (!aeroplane_)
             return spec_.name;
@@ -100,7 +101,7 @@ private:
             aeroplane_->put_on_ground(pose.position.x, pose.position.z, pose.yaw_deg);
             throttle_ = 0;
         }
-        chase_yaw_ = pose.yaw_deg;
+        eye_.begin(pose.yaw_deg);
     }
 
     /// Keys move the stick some way, and it goes there in a moment; a device moves it as far as it is moved.
@@ -116,20 +117,13 @@ private:
 
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const fly::AeroplaneState state = aeroplane_->state();
-        const Angles angles = angles_of(state.turn);
-        glm::dvec3 at = state.position + state.turn * spec_.eye_m;
-        Angles sight = angles;
+        const Angles sight = angles_of(state.turn);
+        const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m, kChaseFollow_per_s, kChasePitch_deg};
         if (camera_ == 1) {
-            chase_yaw_ += std::remainder(angles.yaw - chase_yaw_, 360.0) * (1 - std::exp(-kChaseFollow_per_s * moment.dt_s));
-            const double yaw = (chase_yaw_ + look_.x) * kDegree, back = kChaseBack * spec_.length_m;
-            at = state.position + glm::dvec3(-std::sin(yaw) * back, kChaseUp * spec_.length_m, std::cos(yaw) * back);
-            sight = {chase_yaw_, -8, 0};
-        }
-        view.pose.position = at;
-        view.pose.yaw_deg = sight.yaw + look_.x - 360 * std::floor((sight.yaw + look_.x) / 360);
-        view.pose.pitch_deg = std::clamp(sight.pitch + look_.y, -89.9, 89.9);
-        view.roll_deg = sight.roll;
-        keep_above_ground(view.pose, moment.land.height(at.x, at.z));
+            eye_.come_round(sight.yaw, chase, moment.dt_s);
+            eye_.put_behind(view, state.position, chase, moment.land);
+        } else
+            eye_.put_on_board(view, state.position + state.turn * spec_.eye_m, sight, moment.land);
     }
 
     fly::AeroplaneSpec spec_;
@@ -137,8 +131,8 @@ private:
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0, first_ = 0; ///< of its objects in the scene
     glm::dvec3 stick_{0};            ///< as the keys have it: roll, pitch, yaw
-    glm::dvec2 look_{0, 0};          ///< aside of the camera, degrees
-    double throttle_ = 0, chase_yaw_ = 0;
+    ModelEye eye_;
+    double throttle_ = 0;
 };
 
 } // namespace

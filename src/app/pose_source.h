@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ public:
     virtual void add_objects(render::World&) {}
     /// Where those stand now.
     [[nodiscard]] virtual std::vector<Body> objects() const { return {}; }
+    /// How fast what moves goes, where the eye changes its place on it; none: as the eye goes.
+    [[nodiscard]] virtual std::optional<double> speed_mps() const { return {}; }
     /// A few words for the line on the picture ("set 5 m/s", "stream stands since 3 s"); empty: none.
     [[nodiscard]] virtual std::string note() const { return {}; }
 };

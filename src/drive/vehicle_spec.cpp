@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drive/vehicle_spec.h"
 
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "base/file.h"
@@ -35,13 +33,6 @@ AxleSpec read_axle(TableReader table) {
     return axle;
 }
 
-/// Three numbers, of three surfaces or along three axes.
-template<class Three> void read_three(TableReader& file, const char* key, Three& values, const Range& range) {
-    std::vector<double> n;
-    if (file.numbers(key, n, {range, range, range}))
-        values = {n[0], n[1], n[2]};
-}
-
 } // namespace
 
 VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
@@ -51,7 +42,7 @@ VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
     spec.name = file.stem().string();
     reader.text("name", spec.name);
     reader.number("mass_kg", spec.mass_kg, {50, 100'000, "kg"});
-    read_three(reader, "size_m", spec.size_m, {0.2, 20, "m"});
+    reader.three("size_m", spec.size_m, {0.2, 20, "m"});
     reader.number("clearance_m", spec.clearance_m, {0.02, 2, "m"});
     reader.number("mass_height_m", spec.mass_height_m, {0.05, 5, "m"});
     reader.number("power_kw", spec.power_kw, {0.1, 5000, "kW"});
@@ -60,9 +51,9 @@ VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
     reader.number("top_kmh", spec.top_kmh, {1, 400, "km/h"});
     reader.number("brake_kn", spec.brake_kn, {0.1, 1000, "kN"});
     reader.number("drag_m2", spec.drag_m2, {0, 20, "m2"});
-    read_three(reader, "grip", spec.grip, {0.02, 2, ""});
-    read_three(reader, "rolling", spec.rolling, {0, 0.5, ""});
-    read_three(reader, "eye_m", spec.eye_m, {-10, 10, "m"});
+    reader.three("grip", spec.grip, {0.02, 2, ""});
+    reader.three("rolling", spec.rolling, {0, 0.5, ""});
+    reader.three("eye_m", spec.eye_m, {-10, 10, "m"});
     auto front = reader.table("front"), rear = reader.table("rear");
     reader.finish();
     reader.require("front");

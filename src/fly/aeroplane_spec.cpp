@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fly/aeroplane_spec.h"
 
-#include <cmath>
 #include <optional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -19,12 +16,6 @@ using scene::Range;
 using scene::TableReader;
 
 constexpr std::uint64_t kLimit = 1u << 16; // bytes of a file
-
-void read_three(TableReader& table, const char* key, glm::dvec3& value, const Range& range) {
-    std::vector<double> n;
-    if (table.numbers(key, n, {range, range, range}))
-        value = {n[0], n[1], n[2]};
-}
 
 /// Signs are kept where another sign would be no aeroplane: it would turn over by itself, or away from the stick.
 void read_air(TableReader& table, Derivatives& air) {
@@ -57,7 +48,7 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     spec.name = file.stem().string();
     reader.text("name", spec.name);
     reader.number("mass_kg", spec.mass_kg, {50, 20'000, "kg"});
-    read_three(reader, "inertia_kgm2", spec.inertia_kgm2, {10, 1e6, "kg m2"});
+    reader.three("inertia_kgm2", spec.inertia_kgm2, {10, 1e6, "kg m2"});
     reader.number("wing_m2", spec.wing_m2, {2, 200, "m2"});
     reader.number("span_m", spec.span_m, {2, 60, "m"});
     reader.number("chord_m", spec.chord_m, {0.2, 10, "m"});
@@ -65,14 +56,14 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     reader.number("power_kw", spec.power_kw, {1, 5000, "kW"});
     reader.number("propeller", spec.propeller, {0.1, 1, ""});
     reader.number("static_pull_kn", spec.static_pull_kn, {0.05, 100, "kN"});
-    read_three(reader, "throw_deg", spec.throw_deg, {1, 45, "degrees"});
+    reader.three("throw_deg", spec.throw_deg, {1, 45, "degrees"});
     reader.number("cruise_mps", spec.cruise_mps, {10, 200, "m/s"});
     reader.number("gear_m", spec.gear_m, {0.2, 5, "m"});
     reader.number("gear_track_m", spec.gear_track_m, {0.5, 15, "m"});
     reader.number("gear_ahead_m", spec.gear_ahead_m, {0.3, 15, "m"});
     reader.number("gear_back_m", spec.gear_back_m, {0.05, 5, "m"});
     reader.number("length_m", spec.length_m, {2, 60, "m"});
-    read_three(reader, "eye_m", spec.eye_m, {-10, 10, "m"});
+    reader.three("eye_m", spec.eye_m, {-10, 10, "m"});
     if (std::optional<TableReader> air = reader.table("air"))
         read_air(*air, spec.air);
     reader.finish();

@@ -39,6 +39,14 @@ public:
     /// A file name, resolved against the scene's directory.
     bool path(const char* key, std::filesystem::path& value);
     bool numbers(const char* key, std::vector<double>& values, const std::vector<Range>& ranges);
+    /// Three of a kind: anything that is made of three doubles.
+    template<class Three> bool three(const char* key, Three& values, const Range& range) {
+        std::vector<double> n;
+        if (!numbers(key, n, {range, range, range}))
+            return false;
+        values = {n[0], n[1], n[2]};
+        return true;
+    }
     bool place(const char* key, glm::dvec2& value); ///< [x, z]
     bool place(const char* key, glm::dvec3& value); ///< [x, y, z]
 

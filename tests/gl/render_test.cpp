@@ -230,9 +230,9 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "select blocks", "block samples", "terrain", "depth pyramid",
-                                               "select blades", "cull blades", "draw blades", "sky", "resolve", "far light", "canopy", "far field",
-                                               "tone map"}));
+    EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "land shadow", "select blocks", "block samples", "terrain",
+                                               "depth pyramid", "select blades", "cull blades", "draw blades", "sky", "resolve", "far light",
+                                               "canopy", "far field", "tone map"}));
     EXPECT_GT(stats.blades_simulated, 1000u);
     EXPECT_GT(stats.physics_bytes, 16 * stats.blades_simulated);
     EXPECT_GT(stats.blades_drawn, 100u);

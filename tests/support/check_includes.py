@@ -38,8 +38,8 @@ ARROWS = {
     "texgen/far": {"texgen/patch"},
     "texgen/vdb": {"texgen/patch"},
     "texgen/patch": {"texgen/preset"},
-    "texgen/preset": {"texgen/work"},
-    "texgen/work": {"grass", "assets"},
+    "texgen/preset": {"texgen/support"},
+    "texgen/support": {"grass", "assets"},
     "base": set(),
 }
 # Code that GLSL compiles: `shared` is everyone's, `lib` is the shaders' own; both stand on nothing of src/.
@@ -218,8 +218,8 @@ GOOD_TREE = {
     "src/scene/CMakeLists.txt": "sward_module(scene LINKS sward_base)",
     "src/sward/view.h": '#include "sward/field.h"\n#include <glm/vec3.hpp>\n#include <vector>\n',
     "src/sward/field.h": "",
-    "texgen/work/parallel.h": "",
-    "texgen/preset/preset.h": '#include "texgen/work/parallel.h"\n',
+    "texgen/support/parallel.h": "",
+    "texgen/preset/preset.h": '#include "texgen/support/parallel.h"\n',
     "shaders/shared/frame.h": "",
     "shaders/lib/wind.glsl": '#include "shared/frame.h"\n',
     "shaders/blades/draw.vert": '#include "lib/wind.glsl"\n',
@@ -236,7 +236,7 @@ BAD_TREES = [
     ({"src/gl/CMakeLists.txt": "sward_module(gl)"}, "gl includes base but does not link it"),
     ({"src/sward/view.h": '#include "gl/buffer.h"\n'}, "a public header may not include gl/buffer.h"),
     ({"src/sward/view.h": "#include <glm/gtc/packing.hpp>\n"}, "a public header may not include glm/gtc"),
-    ({"texgen/work/parallel.h": '#include "texgen/preset/preset.h"\n'}, "texgen/work may not include texgen/preset"),
+    ({"texgen/support/parallel.h": '#include "texgen/preset/preset.h"\n'}, "texgen/support may not include texgen/preset"),
     ({"texgen/lost.h": ""}, "stands in no module"),
     ({"src/new/new.h": ""}, "module new is missing"),
 ]

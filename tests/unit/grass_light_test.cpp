@@ -20,7 +20,7 @@
 #include "shells/far_appearance.h"
 #include "texgen/far/far_table.h"
 #include "texgen/patch/canopy.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -8,7 +8,7 @@
 #include "texgen/far/march_fit.h"
 #include "texgen/far/march_slope.h"
 #include "texgen/patch/placing.h"
-#include "texgen/work/step_timer.h"
+#include "texgen/support/step_timer.h"
 
 namespace sward::texgen {
 

@@ -2,8 +2,8 @@
 // Shape planes as BC5, image by image on all workers.
 #include "grass/bc5.h"
 #include "texgen/bake/writer.h"
-#include "texgen/work/parallel.h"
-#include "texgen/work/step_timer.h"
+#include "texgen/support/parallel.h"
+#include "texgen/support/step_timer.h"
 
 namespace sward::texgen {
 

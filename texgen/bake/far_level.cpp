@@ -9,7 +9,7 @@
 #include "texgen/bake/height_map.h"
 #include "texgen/bake/texel_coder.h"
 #include "texgen/patch/placing.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -16,7 +16,7 @@
 #include "texgen/bake/canvas.h"
 #include "texgen/far/flat_rays.h"
 #include "texgen/patch/rays.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -19,10 +19,10 @@
 #include "texgen/bake/preview.h"
 #include "texgen/bake/set_files_check.h"
 #include "texgen/far/far_light.h"
+#include "texgen/support/output_place.h"
+#include "texgen/support/parallel.h"
+#include "texgen/support/step_timer.h"
 #include "texgen/vdb/volume.h"
-#include "texgen/work/output_place.h"
-#include "texgen/work/parallel.h"
-#include "texgen/work/step_timer.h"
 
 namespace sward::texgen {
 namespace {

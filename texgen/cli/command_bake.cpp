@@ -16,7 +16,7 @@
 #include "texgen/patch/patch_size.h"
 #include "texgen/preset/preset.h"
 #include "texgen/report/report.h"
-#include "texgen/work/output_place.h"
+#include "texgen/support/output_place.h"
 
 namespace sward::texgen {
 namespace {

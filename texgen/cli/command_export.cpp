@@ -16,7 +16,7 @@
 #include "texgen/export/export_mesh.h"
 #include "texgen/export/export_textures.h"
 #include "texgen/report/report.h"
-#include "texgen/work/output_place.h"
+#include "texgen/support/output_place.h"
 
 namespace sward::texgen {
 namespace {

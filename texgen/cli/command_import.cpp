@@ -14,8 +14,8 @@
 #include "texgen/import/import.h"
 #include "texgen/import/import_stack.h"
 #include "texgen/seam/seam.h"
+#include "texgen/support/output_place.h"
 #include "texgen/vdb/vdb_file.h"
-#include "texgen/work/output_place.h"
 
 namespace sward::texgen {
 namespace {

@@ -13,8 +13,8 @@
 #include "texgen/cli/commands.h"
 #include "texgen/seam/seam_images.h"
 #include "texgen/seam/stack_json.h"
+#include "texgen/support/output_place.h"
 #include "texgen/vdb/vdb_file.h"
-#include "texgen/work/output_place.h"
 
 namespace sward::texgen {
 namespace {

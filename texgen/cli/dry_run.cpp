@@ -13,7 +13,7 @@
 #include "texgen/bake/far_level.h"
 #include "texgen/patch/canopy.h"
 #include "texgen/patch/patch_size.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -11,8 +11,8 @@
 #include "base/file.h"
 #include "texgen/export/export_texels.h"
 #include "texgen/seam/stack_json.h"
-#include "texgen/work/parallel.h"
-#include "texgen/work/step_timer.h"
+#include "texgen/support/parallel.h"
+#include "texgen/support/step_timer.h"
 
 namespace sward::texgen {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/file.h"
 #include "base/hash.h"
 #include "texgen/bake/set_files_check.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 

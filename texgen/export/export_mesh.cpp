@@ -9,8 +9,8 @@
 #include "base/log.h"
 #include "texgen/export/blade_mesh.h"
 #include "texgen/export/glb.h"
-#include "texgen/work/parallel.h"
-#include "texgen/work/step_timer.h"
+#include "texgen/support/parallel.h"
+#include "texgen/support/step_timer.h"
 
 namespace sward::texgen {
 namespace {

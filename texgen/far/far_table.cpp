@@ -9,7 +9,7 @@
 
 #include "base/log.h"
 #include "texgen/far/flat_rays.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

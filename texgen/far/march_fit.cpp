@@ -12,7 +12,7 @@
 #include "base/log.h"
 #include "shared/march_light.h"
 #include "shared/shading.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

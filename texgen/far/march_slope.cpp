@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "shared/blade.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -17,8 +17,8 @@
 #include "texgen/import/import_field.h"
 #include "texgen/import/import_palette.h"
 #include "texgen/preset/preset.h"
-#include "texgen/work/parallel.h"
-#include "texgen/work/step_timer.h"
+#include "texgen/support/parallel.h"
+#include "texgen/support/step_timer.h"
 
 namespace sward::texgen {
 namespace {

@@ -12,7 +12,7 @@
 #include "texgen/import/import.h"
 #include "texgen/import/import_field.h"
 #include "texgen/patch/placing.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

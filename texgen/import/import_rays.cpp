@@ -11,7 +11,7 @@
 #include "shared/shading.h"
 #include "texgen/import/import_field.h"
 #include "texgen/patch/rays.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

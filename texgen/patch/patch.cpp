@@ -9,7 +9,7 @@
 #include "base/hash.h"
 #include "base/log.h"
 #include "texgen/patch/patch_size.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "texgen/patch/rays.h"
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 namespace sward::texgen {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texgen/work/parallel.h"
+#include "texgen/support/parallel.h"
 
 #include <atomic>
 #include <exception>

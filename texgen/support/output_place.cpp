@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "texgen/work/output_place.h"
+#include "texgen/support/output_place.h"
 
 #include <algorithm>
 #include <ranges>
