@@ -57,8 +57,8 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
         keep_length(pose.v1, pose.v2, blade.shape.y);
     }
     pose.simulated = live(which, blade, pose.root, pose.v1, pose.v2);
-    float lying = lying_height(pose.sway.lying) * land_height(pose.root.xz, distance(pose.root, frame.eye) / frame.focal_px);
-    if (lying != 1.0) { // after contacts and wind: what lies is lower, and a class's height its own, in every tier by the same factor
+    float lying = lying_height(pose.sway.lying);
+    if (lying < 1.0) { // after contacts and wind: what lies is lower, in every tier by the same factor
         pose.v1.y *= lying;
         pose.v2.y *= lying;
     }
@@ -66,6 +66,11 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
     float amplitude = (1.0 - shell) * (1.0 - min(pose.sway.lying, 1.0)) * flutter_amplitude(length(wind), frame.wind.response);
     vec3 flutter = flutter_at(frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
+    if (has_heights()) { // last of all, since flutter keeps a blade's length: the march draws its whole canopy out, too
+        float height = land_height(pose.root.xz, distance(pose.root, frame.eye) / frame.focal_px);
+        pose.v1.y *= height;
+        pose.v2.y *= height;
+    }
     pose.facing = blade.shape.x + flutter.z;
     return pose;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A landcover as the tiers read it: at a border near and far agree, edges are crisp, and nothing stands on a road.
 #include <algorithm>
+#include <array>
+#include <numeric>
 
 #include "gl/fixture.h"
 
@@ -34,73 +36,75 @@ class Land : public GlTest {
 protected:
     Land() : world_(flat_field(40), 0, fields(), {0, 41.5, 0}) {}
 
-    /// Density, height, dryness and asphalt at places of the world, of what is as wide as z says.
-    std::vector<glm::vec4> read(const std::vector<glm::dvec3>& places) {
-        std::vector<glm::vec4> inputs;
-        for (const glm::dvec3& place : places)
-            inputs.emplace_back(glm::vec2(glm::dvec2(place) - glm::dvec2(world_.anchor.x, world_.anchor.z)), static_cast<float>(place.z), 0);
-        return run_probe(shaders_, {"lib/ground.glsl", "lib/land_ground.glsl"},
-                         "    b = vec4(mask_density(a.xy, a.z), land_height(a.xy, a.z), land_dryness(a.xy, a.z), grounds_at(a.xy, a.z).asphalt);", inputs);
+    /// Asks for a place of the world as what is `width` metres wide shows it. Returns its number.
+    std::size_t ask(glm::dvec2 place, double width) {
+        inputs_.emplace_back(glm::vec2(place - glm::dvec2(world_.anchor.x, world_.anchor.z)), static_cast<float>(width), 0);
+        return inputs_.size() - 1;
     }
-    /// The means over a rectangle, of each width.
-    std::vector<glm::vec4> means(glm::dvec2 middle, glm::dvec2 size, const std::vector<double>& widths) {
-        constexpr int kAlong = 64;
-        std::vector<glm::dvec3> places;
-        for (const double width : widths)
-            for (int n = 0; n < kAlong * kAlong; ++n)
-                places.emplace_back(middle + size * (glm::dvec2(n % kAlong + 0.5, n / kAlong + 0.5) / double(kAlong) - 0.5), width);
-        std::vector<glm::vec4> sums(widths.size(), glm::vec4(0));
-        const auto found = read(places);
-        for (std::size_t n = 0; n < found.size(); ++n)
-            sums[n / (kAlong * kAlong)] += found[n] / static_cast<float>(kAlong * kAlong);
-        return sums;
+    /// All that was asked for, in one program: it takes seconds to build. Density, height, dryness and asphalt of each.
+    std::vector<glm::vec4> answers() const {
+        return run_probe(shaders_, {"lib/ground.glsl", "lib/land_ground.glsl"},
+                         "    b = vec4(mask_density(a.xy, a.z), land_height(a.xy, a.z), land_dryness(a.xy, a.z), grounds_at(a.xy, a.z).asphalt);", inputs_);
     }
     const ShaderCopy shaders_;
     SmallWorld world_;
+    std::vector<glm::vec4> inputs_;
 };
 
-TEST_F(Land, BordersAgreeBetweenTiers) {
-    struct Border {
-        glm::dvec2 middle, size;
-    };
-    // 3 m across each, of which a half is the other's whatever the width.
-    for (const Border& border : {Border{{-20, 18.75}, {24, 3}}, Border{{-20, 21.75}, {24, 3}}, Border{{10, -30}, {3, 24}}}) {
-        const std::vector<double> widths = {0.001, 0.05, 0.3, 1.0};
-        const std::vector<glm::vec4> found = means(border.middle, border.size, widths);
-        for (std::size_t n = 1; n < widths.size(); ++n) {
-            EXPECT_NEAR(found[n].x, found[0].x, 0.03) << border.middle.x << ", width " << widths[n];
-            EXPECT_NEAR(found[n].w, found[0].w, 0.03) << border.middle.x << ", width " << widths[n];
-        }
-        EXPECT_NEAR(found[0].x, 0.5, 0.03);
-    }
+struct Border {
+    glm::dvec2 middle, size;
+};
+constexpr std::array<double, 4> kWidths = {0.001, 0.05, 0.3, 1.0};
+constexpr int kAlong = 64; // places of a border a side
+
+/// The mean of places of a border.
+glm::vec4 mean_from(const std::vector<glm::vec4>& found, std::size_t first) {
+    const auto begin = found.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::accumulate(begin, begin + kAlong * kAlong, glm::vec4(0)) / static_cast<float>(kAlong * kAlong);
 }
 
-TEST_F(Land, NothingStandsOnARoad) {
-    std::vector<glm::dvec3> places;
+TEST_F(Land, EveryWidthReadsTheSameField) {
+    // Borders agree between tiers: 3 m across each, of which a half is the other's whatever the width.
+    const std::array<Border, 3> borders = {Border{{-20, 18.75}, {24, 3}}, Border{{-20, 21.75}, {24, 3}}, Border{{10, -30}, {3, 24}}};
+    std::vector<std::size_t> means;
+    for (const Border& border : borders) {
+        for (const double width : kWidths) {
+            means.push_back(inputs_.size());
+            for (int n = 0; n < kAlong * kAlong; ++n)
+                ask(border.middle + border.size * (glm::dvec2(n % kAlong + 0.5, n / kAlong + 0.5) / double(kAlong) - 0.5), width);
+        }
+    }
+    const std::size_t close = inputs_.size(); // over the road
     for (int n = 0; n < 4000; ++n)
-        places.emplace_back(-50 + 0.01 * n, 17 + 6.5 * ((n * 619) % 4000) / 4000.0, 0.002);
+        ask({-50 + 0.01 * n, 17 + 6.5 * ((n * 619) % 4000) / 4000.0}, 0.002);
+    const std::size_t strip = inputs_.size(); // far away
+    for (int n = 0; n < 200; ++n)
+        ask({-55 + 0.3 * n, 20.25}, 8);
+    const std::size_t hay = ask({-90, -40}, 0.01), lawn = ask({-20, -40}, 0.01), verge = ask({-20, 18.2}, 0.01);
+    const auto found = answers();
+
+    for (std::size_t b = 0; b < borders.size(); ++b) {
+        const glm::vec4 near = mean_from(found, means[b * kWidths.size()]);
+        EXPECT_NEAR(near.x, 0.5, 0.03) << "border " << b;
+        for (std::size_t n = 1; n < kWidths.size(); ++n) {
+            const glm::vec4 wide = mean_from(found, means[b * kWidths.size() + n]);
+            EXPECT_NEAR(wide.x, near.x, 0.03) << "border " << b << ", width " << kWidths[n];
+            EXPECT_NEAR(wide.w, near.w, 0.03) << "border " << b << ", width " << kWidths[n];
+        }
+    }
     int between = 0;
-    for (const glm::vec4& found : read(places)) {
-        EXPECT_NEAR(found.x + found.w, 1, 0.02) << "grass or asphalt, and never both";
-        between += found.w > 0.05f && found.w < 0.95f ? 1 : 0;
+    for (std::size_t n = close; n < strip; ++n) {
+        EXPECT_NEAR(found[n].x + found[n].w, 1, 0.02) << "grass or asphalt, and never both";
+        between += found[n].w > 0.05f && found[n].w < 0.95f ? 1 : 0;
     }
     EXPECT_LT(between, 80) << "crisp near the eye";
-    // Far away the strip is unbroken: every place of it has its share.
-    places.clear();
-    for (int n = 0; n < 200; ++n)
-        places.emplace_back(-55 + 0.3 * n, 20.25, 8);
-    for (const glm::vec4& found : read(places))
-        EXPECT_NEAR(found.w, 3.0 / 8, 0.12);
-}
-
-TEST_F(Land, HeightAndDrynessAreTheClasss) {
-    const auto found = read({{-90, -40, 0.01}, {-20, -40, 0.01}, {-20, 18.2, 0.01}});
-    EXPECT_NEAR(found[0].y, 1.6, 0.01);
-    EXPECT_NEAR(found[0].z, 0.6, 0.01);
-    EXPECT_NEAR(found[1].y, 0.4, 0.01);
-    EXPECT_NEAR(found[1].z, -0.2, 0.01);
-    EXPECT_NEAR(found[2].y, 0.4, 0.02) << "beside a road, too";
-    EXPECT_NEAR(means({-60, -60}, {40, 40}, {8})[0].z, 0.2, 0.02) << "from afar the mean";
+    for (std::size_t n = strip; n < hay; ++n)
+        EXPECT_NEAR(found[n].w, 3.0 / 8, 0.12) << "an unbroken strip: every place of it has its share";
+    EXPECT_NEAR(found[hay].y, 1.6, 0.01);
+    EXPECT_NEAR(found[hay].z, 0.6, 0.01);
+    EXPECT_NEAR(found[lawn].y, 0.4, 0.01);
+    EXPECT_NEAR(found[lawn].z, -0.2, 0.01);
+    EXPECT_NEAR(found[verge].y, 0.4, 0.02) << "beside a road, too";
 }
 
 } // namespace
