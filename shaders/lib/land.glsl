@@ -9,19 +9,25 @@ layout(binding = TEX_LAND_COVER) uniform sampler2D land_cover;
 layout(binding = TEX_LAND_GROUND) uniform sampler2D land_ground;
 
 const float kMostHeight = 2.0;    // scene::kLandMostHeight
-const int kEdgeOctaves = 5;       // from 1 m down to 6 cm
 const float kEdgeRagged = 0.35;   // of an octave's cells
 const float kAllOrNone = 0.004;   // a byte
 
+// NO_LAND: in the longest programs of scenes without one, which are spared its code. A mesh never has one.
+#if defined(NO_LAND) || defined(SURFACE)
+const bool kMayHaveLand = false;
+#else
+const bool kMayHaveLand = true;
+#endif
+
 bool has_land() {
-    return frame.land_texel_m > 0.0;
+    return kMayHaveLand && frame.land_texel_m > 0.0;
 }
 bool has_heights() {
-    return frame.land_uneven > 0.0;
+    return kMayHaveLand && frame.land_uneven > 0.0;
 }
 // Greatest height of grass over its height in the set, 1 at least.
 float highest() {
-    return frame.land_highest;
+    return kMayHaveLand ? frame.land_highest : 1.0;
 }
 
 // Place in the mask, and in the landcover, which has the same texels.
@@ -37,22 +43,24 @@ struct LandEdge {
     float soft;  // half of the shares that are neither
 };
 
+// How far an octave of noise moves a border (m).
+float edge_aside(vec2 xz, float size, float width, uint salt) {
+    float share = octave_share(size, width);
+    return share <= 0.0 ? 0.0 : kEdgeRagged * size * share * cell_noise(xz, ivec2(frame.anchor_x, frame.anchor_z), size, salt);
+}
+
 // LAND_SMOOTH: without the noise, whose mean is 0; of the march, which asks at every step.
 LandEdge land_edge(vec2 xz, float width) {
     float soft = clamp(0.5 * width / frame.land_texel_m, 0.01, 0.5);
 #ifdef LAND_SMOOTH
     return LandEdge(0.5, max(soft, 0.15));
 #else
-    float aside = 0.0; // m
-    float size = 1.0;
-    for (int i = 0; i < kEdgeOctaves; ++i) {
-        float share = octave_share(size, width);
-        if (share <= 0.0) {
-            break;
-        }
-        aside += kEdgeRagged * size * share * cell_noise(xz, ivec2(frame.anchor_x, frame.anchor_z), size, 0x1a4du + uint(i));
-        size *= 0.5;
+    if (octave_share(1.0, width) <= 0.0) {
+        return LandEdge(0.5, soft);
     }
+    // From 1 m down to 6 cm; no loop, of which terrain.frag has enough.
+    float aside = edge_aside(xz, 1.0, width, 0x1a4du) + edge_aside(xz, 0.5, width, 0x1a4eu) + edge_aside(xz, 0.25, width, 0x1a4fu) +
+                  edge_aside(xz, 0.125, width, 0x1a50u) + edge_aside(xz, 0.0625, width, 0x1a51u);
     float most = 0.8 * (0.5 - soft); // so that all is all, and none none
     return LandEdge(0.5 + clamp(aside / frame.land_texel_m, -most, most), soft);
 #endif

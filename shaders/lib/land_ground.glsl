@@ -27,33 +27,58 @@ Grounds grounds_at(vec2 xz, float width) {
     return Grounds(a, b - a, c - b, d - c, beyond_edge(all, edge) - d);
 }
 
-// Octaves of noise. `shape`: size of the widest cells (m), octaves, weight of each over the one before, width of what is seen (m).
-float noise_from(vec2 xz, vec4 shape, uint salt) {
+// How one of them looks. One loop over the grounds draws them all: each loop more makes compilers of software rasterisers slower than the last.
+struct GroundLook {
+    vec3 colour;
+    float wide;     // widest cells of its noise (m)
+    int octaves;
+    float weight;   // of each over the one before
+    float strength; // of the noise
+    float stone;    // size of its stones (m)
+    float own;      // how far they differ
+    float rim;      // how much darker they are at their rims
+};
+
+GroundLook look_of(int ground, float tint) {
+    if (ground == 0) {
+        return GroundLook(vec3(0.064, 0.063, 0.062), 8.0, 7, 0.7, 0.4, 0.0078125, 0.5, 0.5);
+    }
+    if (ground == 1) {
+        return GroundLook(vec3(0.23, 0.215, 0.19), 4.0, 7, 0.75, 0.5, 0.03125, 0.5, 1.0);
+    }
+    if (ground == 2) {
+        return GroundLook(vec3(0.40, 0.32, 0.21), 8.0, 8, 0.75, 0.3, 0.00390625, 0.35, 0.5);
+    }
+    return GroundLook(frame.rock.rgb * mix(0.85, 1.2, tint), 4.0, 8, 0.75, 0.9, 0.125, 0.08, 0.0);
+}
+
+// Octaves of noise from `wide` metres on, as something `width` metres wide shows them.
+float noise_from(vec2 xz, GroundLook look, float width, uint salt) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     float sum = 0.0;
     float weight = 1.0;
-    float size = shape.x;
-    for (int i = 0; i < int(shape.y); ++i) {
-        float share = octave_share(size, shape.w);
+    float size = look.wide;
+    for (int i = 0; i < look.octaves; ++i) {
+        float share = octave_share(size, width);
         if (share <= 0.0) {
             break;
         }
         sum += weight * share * cell_noise(xz, anchor, size, salt + uint(i));
         size *= 0.5;
-        weight *= shape.z;
+        weight *= look.weight;
     }
     return sum;
 }
 
-// Stones of about `size` metres: x their own brightness, -1..1; y how far a place is from the middle of its stone, 0..1. Mean (0, 0.5).
-vec2 stones_at(vec2 xz, ivec2 anchor, float size, uint salt, float width) {
+// Stones of about `size` metres: x their own brightness, -1..1; y how far a place is from the middle of its stone, less its mean. Mean 0.
+vec2 stones_at(vec2 xz, float size, uint salt, float width) {
     float share = octave_share(2.0 * size, width);
     if (share <= 0.0) {
-        return vec2(0.0, 0.5);
+        return vec2(0.0);
     }
     vec2 p = xz / size;
     vec2 base = floor(p);
-    ivec2 cell = ivec2(base) + anchor * int(kAnchorGrid_m / size);
+    ivec2 cell = ivec2(base) + ivec2(frame.anchor_x, frame.anchor_z) * int(kAnchorGrid_m / size);
     float nearest = 9.0;
     float own = 0.0;
     for (int i = 0; i < 9; ++i) {
@@ -67,55 +92,48 @@ vec2 stones_at(vec2 xz, ivec2 anchor, float size, uint salt, float width) {
             own = float(h >> 16u) / 32767.5 - 1.0;
         }
     }
-    return share * vec2(own, min(sqrt(nearest), 1.0) - 0.5) + vec2(0.0, 0.5);
+    return share * vec2(own, min(sqrt(nearest), 1.0) - 0.5);
 }
 
-vec3 rock_colour(vec2 xz, ivec2 anchor, float tint, float width) {
-    float slabs = noise_from(xz, vec4(4.0, 8.0, 0.75, width), 0x30c4u);
-    float cracks = octave_share(0.5, width) * (0.22 - smoothstep(0.0, 0.06, abs(cell_noise(xz, anchor, 0.5, 0x30d4u))) * 0.25);
-    float lichen = noise_from(xz, vec4(0.5, 5.0, 0.8, width), 0x30e4u);
-    vec3 colour = frame.rock.rgb * mix(0.85, 1.2, tint) * max(1.0 + 0.9 * slabs - cracks, 0.25);
-    return mix(colour, colour * vec3(1.05, 1.15, 0.85), clamp(0.3 + 1.5 * lichen, 0.0, 1.0));
-}
-
-vec3 sand_colour(vec2 xz, ivec2 anchor, float width) {
-    float waves = noise_from(xz + 0.15 * vec2(cell_noise(xz, anchor, 2.0, 0x5a01u)), vec4(8.0, 3.0, 0.8, width), 0x5a10u);
-    float ripples = octave_share(0.0625, width) * stretched_noise(xz, anchor, vec2(0.5, 0.0625), 0x5a20u);
-    float grains = noise_from(xz, vec4(0.015625, 3.0, 1.0, width), 0x5a30u);
-    return vec3(0.40, 0.32, 0.21) * max(1.0 + 0.25 * waves + 0.35 * ripples + 0.5 * grains, 0.3);
-}
-
-vec3 gravel_colour(vec2 xz, ivec2 anchor, float width) {
-    vec2 large = stones_at(xz, anchor, 0.03125, 0x9a01u, width);
-    vec2 small = stones_at(xz, anchor, 0.0078125, 0x9a02u, width);
-    float worn = noise_from(xz, vec4(4.0, 6.0, 0.75, width), 0x9a10u);
-    float value = 1.0 + 0.45 * large.x - 0.9 * (large.y - 0.5) + 0.25 * small.x - 0.4 * (small.y - 0.5) + 0.45 * worn;
-    return vec3(0.23, 0.215, 0.19) * (vec3(1.0) + 0.06 * large.x * vec3(1.0, 0.2, -1.0)) * max(value, 0.15);
-}
-
-vec3 asphalt_colour(vec2 xz, ivec2 anchor, float width) {
-    vec2 chips = stones_at(xz, anchor, 0.0078125, 0xa501u, width);
-    float worn = noise_from(xz, vec4(8.0, 7.0, 0.7, width), 0xa510u);
-    float crack = octave_share(0.125, width) * (0.05 - (1.0 - smoothstep(0.0, 0.012, abs(cell_noise(xz, anchor, 2.0, 0xa520u) + 0.1 * cell_noise(xz, anchor, 0.25, 0xa521u)))));
-    return vec3(0.064, 0.063, 0.062) * max(1.0 + 0.5 * chips.x - 0.5 * (chips.y - 0.5) + 0.4 * worn + 0.5 * crack, 0.2);
+// What of a ground's brightness neither noise nor stones are: cracks, of sand ripples.
+float ground_marks(int ground, vec2 xz, float width) {
+    ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
+    if (ground == 1 || octave_share(0.0625, width) <= 0.0) {
+        return 0.0;
+    }
+    if (ground == 2) {
+        return 0.35 * octave_share(0.0625, width) * stretched_noise(xz, anchor, vec2(0.5, 0.0625), 0x5a20u);
+    }
+    float way = cell_noise(xz, anchor, ground == 0 ? 2.0 : 0.5, 0xa520u) + 0.1 * cell_noise(xz, anchor, 0.25, 0xa521u);
+    float wide = ground == 0 ? 0.012 : 0.06; // cracks are a ridge's line
+    return octave_share(0.125, width) * (ground == 0 ? 0.5 : 0.25) * (3.0 * wide - 1.0 + smoothstep(0.0, wide, abs(way)));
 }
 
 // Reflectance of the ground where `soil` is that of the class's soil.
 vec3 ground_colour(vec3 soil, Grounds grounds, vec2 xz, float tint, float width) {
-    ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
-    float hard = grounds.asphalt + grounds.gravel + grounds.sand + grounds.rock;
-    vec3 colour = soil * max(1.0 - hard - grounds.water, 0.0);
-    colour += grounds.asphalt > 0.0 ? grounds.asphalt * asphalt_colour(xz, anchor, width) : vec3(0.0);
-    colour += grounds.gravel > 0.0 ? grounds.gravel * gravel_colour(xz, anchor, width) : vec3(0.0);
-    colour += grounds.sand > 0.0 ? grounds.sand * sand_colour(xz, anchor, width) : vec3(0.0);
-    colour += grounds.rock > 0.0 ? grounds.rock * rock_colour(xz, anchor, tint, width) : vec3(0.0);
+    vec4 shares = vec4(grounds.asphalt, grounds.gravel, grounds.sand, grounds.rock);
+    vec3 colour = soil * max(1.0 - dot(shares, vec4(1.0)) - grounds.water, 0.0);
+    for (int ground = 0; ground < 4; ++ground) {
+        if (shares[ground] > 0.0) {
+            GroundLook look = look_of(ground, tint);
+            uint salt = 0xa510u + 0x1000u * uint(ground);
+            vec2 stones = stones_at(xz, look.stone, salt + 0x100u, width);
+            float value = 1.0 + look.strength * noise_from(xz, look, width, salt) + look.own * stones.x - look.rim * stones.y + ground_marks(ground, xz, width);
+            colour += shares[ground] * look.colour * max(value, 0.2);
+        }
+    }
     return colour / max(1.0 - grounds.water, 1e-3);
 }
 
 // Radiance of still water, level whatever the ground is, toward the eye: the sky by Fresnel (Schlick, 2 percent), and what its depth gives back.
 vec3 water_radiance(vec2 xz, vec3 to_eye, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
-    vec2 slope = vec2(noise_from(xz, vec4(2.0, 5.0, 0.8, width), 0x3a7au), noise_from(xz, vec4(2.0, 5.0, 0.8, width), 0x3b7au));
+    vec2 slope = vec2(0.0);
+    for (int i = 0; i < 5; ++i) {
+        float size = 2.0 * exp2(-float(i));
+        float share = octave_share(size, width) * (1.0 - 0.12 * float(i));
+        slope += share * vec2(cell_noise(xz, anchor, size, 0x3a7au + uint(i)), cell_noise(xz, anchor, size, 0x3b7au + uint(i)));
+    }
     vec3 normal = normalize(vec3(0.045 * slope.x, 1.0, 0.045 * slope.y));
     vec3 mirrored = reflect(-to_eye, normal);
     mirrored.y = abs(mirrored.y); // ripples that would mirror the bank

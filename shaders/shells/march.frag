@@ -159,7 +159,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         albedo *= march_tint(taken.layer, steepness);
 #endif
         float shown = mean_of(lost);
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, mean_tangent(path, taken, at, shown), taken.rest.y / frame.canopy_m, shown));
+        march_gather(seen.grass, light, slope, MarchBlades(albedo, land_tangent(entry, mean_tangent(path, taken, at, shown)), taken.rest.y / frame.canopy_m, shown));
         bool more = seen.through.x > 0.5;
         seen.through -= lost;
         seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;

@@ -42,3 +42,12 @@ float land_share(Entry entry, MarchPlan plan, vec3 rest) {
 #endif
     return 1.0;
 }
+
+// Mean tangent of blades that are drawn out or pressed by the entry's factor: as if all leaned as far as the mean is upright.
+vec3 land_tangent(Entry entry, vec3 mean) {
+    if (!has_heights()) {
+        return mean;
+    }
+    float height = entry.lying;
+    return vec3(mean.x, height * mean.y, mean.z) * inversesqrt(max(1.0 - mean.y * mean.y * (1.0 - height * height), 1e-4));
+}

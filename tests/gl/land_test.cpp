@@ -107,5 +107,31 @@ TEST_F(Land, EveryWidthReadsTheSameField) {
     EXPECT_NEAR(found[verge].y, 0.4, 0.02) << "beside a road, too";
 }
 
+// A blade as it is drawn, less its class's factor on its height, is as long as its set has it: flutter, which keeps lengths, comes before.
+TEST_F(Land, ABladeIsItsClassesHeight) {
+    world_.set.blades.resize(64);
+    const std::array<shared::BladeTile, 2> tiles = {shared::BladeTile{{-100, -40}, 64}, shared::BladeTile{{1, -3}, 64}}; // hay far away, lawn near by
+    const auto records = gl::Buffer::of(std::span<const shared::BladeRecord>(world_.set.blades));
+    const auto corners = gl::Buffer::of(std::span<const shared::BladeTile>(tiles));
+    records.bind_storage(BIND_BLADES);
+    corners.bind_storage(BIND_BLADE_TILES);
+    const gl::Buffer no_states(16), no_places(16); // nothing lives
+    no_states.bind_storage(BIND_BLADE_STATES);
+    no_places.bind_storage(BIND_BLADE_PLACES);
+    for (int n = 0; n < 128; ++n)
+        inputs_.emplace_back(n / 64, n % 64, 0, 0);
+    const auto found = run_probe(shaders_, {"lib/blade_pose.glsl"},
+                                 "    uvec2 which = uvec2(a.xy);\n    BladeRecord blade = tile_blade(which.x, which.y);\n"
+                                 "    BladePose pose = blade_pose(which, blade);\n    float height = land_height(pose.root.xz, 0.0);\n"
+                                 "    vec3 down = vec3(1.0, 1.0 / height, 1.0);\n    vec3 v1 = pose.v1 * down;\n    vec3 v2 = pose.v2 * down;\n"
+                                 "    float arc = (2.0 * length(v2) + length(v1) + length(v2 - v1)) / 3.0;\n"
+                                 "    b = vec4(height, arc / blade.shape.y, 0.0, 0.0);",
+                                 inputs_);
+    for (std::size_t n = 0; n < found.size(); ++n) {
+        EXPECT_NEAR(found[n].x, n < 64 ? 1.6 : 0.4, 0.01) << n;
+        EXPECT_NEAR(found[n].y, 1, 0.01) << n;
+    }
+}
+
 } // namespace
 } // namespace sward::tests

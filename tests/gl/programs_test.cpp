@@ -90,7 +90,7 @@ std::vector<Variant> variants() {
     for (const char* kind : {"COLUMNS", "SLABS"}) {
         for (const char* rays : {"CREST", "PLAIN"}) {
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays}});
-            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV"}});
+            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV", "NO_LAND"}});
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE"}});
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE", "AOV"}});
         }
@@ -132,7 +132,7 @@ class Programs : public GlTest {};
 TEST_F(Programs, PassesBuildInBothVariants) {
     for (const bool aov : {false, true})
         for (const bool block_shapes : {false, true})
-            const render::DrawPasses passes(aov, block_shapes, block_shapes);
+            const render::DrawPasses passes(aov, block_shapes, block_shapes, !block_shapes);
     const blades::CullPass cull;
     const terrain::BlockSamples samples;
 }
