@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Counts a ctest report: names what was skipped, ends with 'N passed, N failed, N skipped', fails unless all passed."""
+"""Counts a ctest report: names what was skipped, ends with 'N passed, N failed, N skipped', fails
+unless all passed."""
+
 import sys
 import xml.etree.ElementTree as ElementTree
 

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Flies JSBSim's Cessna (pip install jsbsim) in real time and sends net_fdm by JSBSim's own output:
 
-    python scripts/jsbsim_flight.py --to 127.0.0.1:5550 --at 36.6396,-84.2178,900 [--seconds 60] [--ground 5560]
+    python scripts/jsbsim_flight.py --to 127.0.0.1:5550 --at 36.6396,-84.2178,900 [--seconds 60]
+    [--ground 5560]
 
-beside `sward view SCENE --native-fdm udp:5550 [--udp-out udp:127.0.0.1:5560]`. HEIGHT in metres above sea level. With --ground the flight
+beside `sward view SCENE --native-fdm udp:5550 [--udp-out udp:127.0.0.1:5560]`. HEIGHT in metres
+above sea level. With --ground the flight
 stands on the ground that is drawn: its height comes back from Sward and becomes JSBSim's terrain.
 """
+
 import argparse
 import os
 import socket
@@ -41,8 +44,15 @@ class Flight:
             if not self.fdm.set_output_directive(path):
                 raise RuntimeError("JSBSim takes no output")
         self.fdm.set_dt(STEP_S)
-        for name, value in {"ic/lat-geod-deg": latitude, "ic/long-gc-deg": longitude, "ic/h-sl-ft": height_m / FOOT, "ic/psi-true-deg": 40,
-                            "ic/vc-kts": 100, "ic/terrain-elevation-ft": 0, "propulsion/set-running": -1}.items():
+        for name, value in {
+            "ic/lat-geod-deg": latitude,
+            "ic/long-gc-deg": longitude,
+            "ic/h-sl-ft": height_m / FOOT,
+            "ic/psi-true-deg": 40,
+            "ic/vc-kts": 100,
+            "ic/terrain-elevation-ft": 0,
+            "propulsion/set-running": -1,
+        }.items():
             self.fdm[name] = value
         self.fdm.run_ic()
         self.fdm.do_trim(1)
@@ -53,12 +63,22 @@ class Flight:
     def step(self):
         """One hundred-and-twentieth of a second; JSBSim sends when it is due."""
         seconds = self.fdm.get_sim_time()
-        self.fdm["ap/heading_setpoint"] = [heading for begin, heading in self.HEADINGS if begin <= seconds][-1]
+        self.fdm["ap/heading_setpoint"] = [
+            heading for begin, heading in self.HEADINGS if begin <= seconds
+        ][-1]
         self.fdm.run()
 
     def truth(self):
-        """What JSBSim's properties say: seconds; latitude, longitude, height (degrees, m); heading, pitch, roll (degrees)."""
-        names = ("position/lat-geod-deg", "position/long-gc-deg", "position/h-sl-meters", "attitude/psi-deg", "attitude/theta-deg", "attitude/phi-deg")
+        """What JSBSim's properties say: seconds; latitude, longitude, height (degrees, m); heading,
+        pitch, roll (degrees)."""
+        names = (
+            "position/lat-geod-deg",
+            "position/long-gc-deg",
+            "position/h-sl-meters",
+            "attitude/psi-deg",
+            "attitude/theta-deg",
+            "attitude/phi-deg",
+        )
         return (self.fdm.get_sim_time(), *(self.fdm[name] for name in names))
 
 
@@ -70,7 +90,9 @@ def stand_on(flight, reports):
         except BlockingIOError:
             return
         if len(packet) == 96 and packet[:4] == b"SWGD" and struct.unpack(">I", packet[4:8]) == (1,):
-            flight.fdm["position/terrain-elevation-asl-ft"] = struct.unpack(">d", packet[56:64])[0] / FOOT
+            flight.fdm["position/terrain-elevation-asl-ft"] = (
+                struct.unpack(">d", packet[56:64])[0] / FOOT
+            )
 
 
 def main():
@@ -96,8 +118,11 @@ def main():
         seconds, latitude, longitude, height, heading, pitch, roll = flight.truth()
         if int(seconds) > shown:
             shown = int(seconds)
-            print(f"{shown:4d} s  {latitude:.6f} {longitude:.6f}  {height:7.1f} m, {flight.fdm['position/h-agl-ft'] * FOOT:6.1f} above ground  "
-                  f"heading {heading:5.1f} pitch {pitch:5.1f} roll {roll:5.1f}", flush=True)
+            print(
+                f"{shown:4d} s  {latitude:.6f} {longitude:.6f}  {height:7.1f} m, {flight.fdm['position/h-agl-ft'] * FOOT:6.1f} above ground  "
+                f"heading {heading:5.1f} pitch {pitch:5.1f} roll {roll:5.1f}",
+                flush=True,
+            )
         time.sleep(max(0, begin + seconds - time.monotonic()))
     return 0
 

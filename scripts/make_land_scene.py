@@ -5,6 +5,7 @@
     make_land_scene.py [DIRECTORY]     default: terrains/landcover beside this script's directory
 
 The raster is an 8-bit GeoTIFF in longitude and latitude (EPSG:4326), 2 m a pixel, Deflate. The same bytes every time."""
+
 import json
 import math
 import pathlib
@@ -13,7 +14,7 @@ import sys
 import zlib
 
 ORIGIN = (36.5895833, -84.2458333)  # latitude, longitude of terrains/jacksboro's own x = z = 0
-MIDDLE = (2535.0, 1341.0)           # east and north of it (m): the middle of the fields
+MIDDLE = (2535.0, 1341.0)  # east and north of it (m): the middle of the fields
 HALF_M = 700.0
 PIXEL_M = 2.0
 ROAD_YAW = math.radians(310)
@@ -28,7 +29,7 @@ def metres_per_degree():
     a, e2 = 6378137.0, 0.00669437999014
     lat = math.radians(ORIGIN[0])
     w = math.sqrt(1 - e2 * math.sin(lat) ** 2)
-    return math.radians(1) * a * math.cos(lat) / w, math.radians(1) * a * (1 - e2) / w ** 3
+    return math.radians(1) * a * math.cos(lat) / w, math.radians(1) * a * (1 - e2) / w**3
 
 
 def on_earth(east, north):
@@ -81,25 +82,60 @@ def class_at(east, north):
     if abs(s) < 7:
         return PASTURE  # the verge
     if s > 0:
-        return LAWN if t < 35 else FIELD if t < 120 else HEATH if t < 230 else FIELD if t < 330 and s < 170 else HAY
+        return (
+            LAWN
+            if t < 35
+            else FIELD
+            if t < 120
+            else HEATH
+            if t < 230
+            else FIELD
+            if t < 330 and s < 170
+            else HAY
+        )
     if t < 40 and s > -60:
         return HAY
-    return PASTURE if t < 170 else FIELD if t < 260 and s > -190 else HAY if (t // 140) % 2 == 0 else PASTURE
+    return (
+        PASTURE
+        if t < 170
+        else FIELD
+        if t < 260 and s > -190
+        else HAY
+        if (t // 140) % 2 == 0
+        else PASTURE
+    )
 
 
 def write_classes(path):
     n = int(2 * HALF_M / PIXEL_M)
-    rows = [bytes([class_at(-HALF_M + (i + 0.5) * PIXEL_M, HALF_M - (j + 0.5) * PIXEL_M) for i in range(n)]) for j in range(n)]
+    rows = [
+        bytes(
+            [
+                class_at(-HALF_M + (i + 0.5) * PIXEL_M, HALF_M - (j + 0.5) * PIXEL_M)
+                for i in range(n)
+            ]
+        )
+        for j in range(n)
+    ]
     data = zlib.compress(b"".join(rows), 9)
     data += bytes(len(data) % 2)
     west, north = on_earth(-HALF_M, HALF_M)
     east, south = on_earth(HALF_M, -HALF_M)
     keys = [1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326]
-    tags = [(256, 4, 1, struct.pack("<I", n)), (257, 4, 1, struct.pack("<I", n)), (258, 3, 1, struct.pack("<H", 8)),
-            (259, 3, 1, struct.pack("<H", 8)), (262, 3, 1, struct.pack("<H", 1)), (273, 4, 1, struct.pack("<I", 8)),
-            (277, 3, 1, struct.pack("<H", 1)), (278, 4, 1, struct.pack("<I", n)), (279, 4, 1, struct.pack("<I", len(data))),
-            (33550, 12, 3, struct.pack("<3d", (east - west) / n, (north - south) / n, 0)),
-            (33922, 12, 6, struct.pack("<6d", 0, 0, 0, west, north, 0)), (34735, 3, len(keys), struct.pack(f"<{len(keys)}H", *keys))]
+    tags = [
+        (256, 4, 1, struct.pack("<I", n)),
+        (257, 4, 1, struct.pack("<I", n)),
+        (258, 3, 1, struct.pack("<H", 8)),
+        (259, 3, 1, struct.pack("<H", 8)),
+        (262, 3, 1, struct.pack("<H", 1)),
+        (273, 4, 1, struct.pack("<I", 8)),
+        (277, 3, 1, struct.pack("<H", 1)),
+        (278, 4, 1, struct.pack("<I", n)),
+        (279, 4, 1, struct.pack("<I", len(data))),
+        (33550, 12, 3, struct.pack("<3d", (east - west) / n, (north - south) / n, 0)),
+        (33922, 12, 6, struct.pack("<6d", 0, 0, 0, west, north, 0)),
+        (34735, 3, len(keys), struct.pack(f"<{len(keys)}H", *keys)),
+    ]
     directory, rest = struct.pack("<H", len(tags)), b""
     after = 8 + len(data) + 2 + 12 * len(tags) + 4
     for tag, kind, count, value in tags:
@@ -109,12 +145,18 @@ def write_classes(path):
             rest += value
         else:
             directory += value.ljust(4, b"\0")
-    path.write_bytes(b"II*\0" + struct.pack("<I", 8 + len(data)) + data + directory + bytes(4) + rest)
+    path.write_bytes(
+        b"II*\0" + struct.pack("<I", 8 + len(data)) + data + directory + bytes(4) + rest
+    )
 
 
 def feature(kind, name, coordinates):
     rounded = [[round(x, 8), round(y, 8)] for x, y in coordinates]
-    return {"type": "Feature", "properties": {"kind": name}, "geometry": {"type": kind, "coordinates": [rounded] if kind == "Polygon" else rounded}}
+    return {
+        "type": "Feature",
+        "properties": {"kind": name},
+        "geometry": {"type": kind, "coordinates": [rounded] if kind == "Polygon" else rounded},
+    }
 
 
 def write_features(path, features):
@@ -122,11 +164,18 @@ def write_features(path, features):
 
 
 def main():
-    directory = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "terrains" / "landcover"
+    directory = (
+        pathlib.Path(sys.argv[1])
+        if len(sys.argv) > 1
+        else pathlib.Path(__file__).resolve().parent.parent / "terrains" / "landcover"
+    )
     write_classes(directory / "classes.tif")
     road = [on_earth(*at_road(t)) for t in range(-640, 641, 8)]
     track = [on_earth(*at_road(60 + 0.5 * math.sin(s / 18) * 12, s)) for s in range(0, 400, 6)]
-    write_features(directory / "road.geojson", [feature("LineString", "road", road), feature("LineString", "track", track)])
+    write_features(
+        directory / "road.geojson",
+        [feature("LineString", "road", road), feature("LineString", "track", track)],
+    )
     ring = [on_earth(*pond_place(2 * math.pi * k / 72)) for k in range(73)]
     write_features(directory / "pond.geojson", [feature("Polygon", "pond", ring)])
 

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the meshes of terrains/moebius, terrains/fur, terrains/roof and terrains/leaves as glTF binary. Everything is made here, from formulas.
+"""Writes the meshes of terrains/moebius, terrains/fur, terrains/roof and terrains/leaves as glTF
+binary. Everything is made here, from formulas.
 
-    make_mesh_samples.py [ROOT]      ROOT: the source tree, by default the one this file stands in
+make_mesh_samples.py [ROOT]      ROOT: the source tree, by default the one this file stands in
 """
+
 import json
 import math
 import struct
@@ -12,7 +14,8 @@ from pathlib import Path
 
 
 class Mesh:
-    """Vertices (metres, y up), triangles counter-clockwise from outside; normals: the mean about a vertex."""
+    """Vertices (metres, y up), triangles counter-clockwise from outside; normals: the mean about a
+    vertex."""
 
     def __init__(self):
         self.vertices, self.triangles = [], []
@@ -37,7 +40,13 @@ class Mesh:
     def beam(self, a, b, half):
         """A square bar from a to b, upright across."""
         up, side = (0, half, 0), (half, 0, 0)
-        ends = [[tuple(p[k] + i * side[k] + j * up[k] for k in range(3)) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))] for p in (a, b)]
+        ends = [
+            [
+                tuple(p[k] + i * side[k] + j * up[k] for k in range(3))
+                for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))
+            ]
+            for p in (a, b)
+        ]
         for n in range(4):
             m = (n + 1) % 4
             self.quad(ends[0][n], ends[1][n], ends[1][m], ends[0][m])
@@ -58,27 +67,64 @@ class Mesh:
         corners = b"".join(struct.pack("<3f", *v) for v in self.vertices)
         normals = b"".join(struct.pack("<3f", *n) for n in self.normals())
         indices = b"".join(struct.pack("<3I", *t) for t in self.triangles)
-        low = [min(struct.unpack("<f", struct.pack("<f", v[k]))[0] for v in self.vertices) for k in range(3)]
-        high = [max(struct.unpack("<f", struct.pack("<f", v[k]))[0] for v in self.vertices) for k in range(3)]
+        low = [
+            min(struct.unpack("<f", struct.pack("<f", v[k]))[0] for v in self.vertices)
+            for k in range(3)
+        ]
+        high = [
+            max(struct.unpack("<f", struct.pack("<f", v[k]))[0] for v in self.vertices)
+            for k in range(3)
+        ]
         views, offset = [], 0
         for data, target in ((corners, 34962), (normals, 34962), (indices, 34963)):
-            views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(data), "target": target})
+            views.append(
+                {"buffer": 0, "byteOffset": offset, "byteLength": len(data), "target": target}
+            )
             offset += len(data)
         count = len(self.vertices)
         document = {
-            "asset": {"version": "2.0", "generator": "make_mesh_samples.py", "copyright": "Sward, Apache-2.0"},
-            "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "name": path.stem}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}],
-            "accessors": [{"bufferView": 0, "componentType": 5126, "count": count, "type": "VEC3", "min": low, "max": high},
-                          {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
-                          {"bufferView": 2, "componentType": 5125, "count": 3 * len(self.triangles), "type": "SCALAR"}],
-            "bufferViews": views, "buffers": [{"byteLength": offset}]}
+            "asset": {
+                "version": "2.0",
+                "generator": "make_mesh_samples.py",
+                "copyright": "Sward, Apache-2.0",
+            },
+            "scene": 0,
+            "scenes": [{"nodes": [0]}],
+            "nodes": [{"mesh": 0, "name": path.stem}],
+            "meshes": [
+                {"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1}, "indices": 2}]}
+            ],
+            "accessors": [
+                {
+                    "bufferView": 0,
+                    "componentType": 5126,
+                    "count": count,
+                    "type": "VEC3",
+                    "min": low,
+                    "max": high,
+                },
+                {"bufferView": 1, "componentType": 5126, "count": count, "type": "VEC3"},
+                {
+                    "bufferView": 2,
+                    "componentType": 5125,
+                    "count": 3 * len(self.triangles),
+                    "type": "SCALAR",
+                },
+            ],
+            "bufferViews": views,
+            "buffers": [{"byteLength": offset}],
+        }
         text = json.dumps(document, separators=(",", ":")).encode()
         text += b" " * (-len(text) % 4)
         body = corners + normals + indices
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body)) + struct.pack("<2I", len(text), 0x4E4F534A) + text +
-                         struct.pack("<2I", len(body), 0x004E4942) + body)
+        path.write_bytes(
+            struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body))
+            + struct.pack("<2I", len(text), 0x4E4F534A)
+            + text
+            + struct.pack("<2I", len(body), 0x004E4942)
+            + body
+        )
         print(f"{path}: {len(self.triangles)} triangles, {path.stat().st_size // 1024} KiB")
 
 
@@ -99,11 +145,16 @@ def mix(a, b, t):
     return a + (b - a) * t
 
 
-# --- Moebius strip ---------------------------------------------------------------------------------------------------------------
+# --- Moebius strip --------------------------------------------------------------------------------
+
 
 def moebius():
-    """A band with half a turn in it, 0.3 m thick with round rims, so that its one side is one closed surface."""
-    around, loop = 288, 44  # sections; places on a section, even: half a turn maps the section onto itself
+    """A band with half a turn in it, 0.3 m thick with round rims, so that its one side is one
+    closed surface."""
+    around, loop = (
+        288,
+        44,
+    )  # sections; places on a section, even: half a turn maps the section onto itself
     radius, half_width, thick = 5.0, 1.7, 0.15
     mesh = Mesh()
     for i in range(around):
@@ -120,12 +171,19 @@ def moebius():
             # Stood on edge and leaned back, so that its hole is seen.
             x, z = r * out[0], r * out[1]
             lean = math.radians(58)
-            mesh.vertices.append((x, 5.2 + y * math.cos(lean) + z * math.sin(lean), z * math.cos(lean) - y * math.sin(lean)))
+            mesh.vertices.append(
+                (
+                    x,
+                    5.2 + y * math.cos(lean) + z * math.sin(lean),
+                    z * math.cos(lean) - y * math.sin(lean),
+                )
+            )
 
     def at(i, j):
         if i == around:
             return (j + loop // 2) % loop
         return i * loop + j % loop
+
     for i in range(around):
         for j in range(loop):
             a, b, c, d = at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)
@@ -133,7 +191,8 @@ def moebius():
     return mesh
 
 
-# --- An animal --------------------------------------------------------------------------------------------------------------------
+# --- An animal ------------------------------------------------------------------------------------
+
 
 def capsule(p, a, b, ra, rb):
     """Distance to a cone with round ends, nearly."""
@@ -154,12 +213,17 @@ def smooth_min(a, b, k):
     return min(a, b) - h * h * k * 0.25
 
 
-LEGS = [((0.19, 0.75, -0.52), (0.20, 0.07, -0.56)), ((-0.19, 0.75, -0.52), (-0.20, 0.07, -0.47)),
-        ((0.19, 0.78, 0.55), (0.20, 0.07, 0.52)), ((-0.19, 0.78, 0.55), (-0.20, 0.07, 0.62))]
+LEGS = [
+    ((0.19, 0.75, -0.52), (0.20, 0.07, -0.56)),
+    ((-0.19, 0.75, -0.52), (-0.20, 0.07, -0.47)),
+    ((0.19, 0.78, 0.55), (0.20, 0.07, 0.52)),
+    ((-0.19, 0.78, 0.55), (-0.20, 0.07, 0.62)),
+]
 
 
 def animal_distance(p):
-    """A shaggy cow of the hills, 1.2 m at the withers, its head to the north (-z), without what is not furred."""
+    """A shaggy cow of the hills, 1.2 m at the withers, its head to the north (-z), without what is
+    not furred."""
     d = ellipsoid(p, (0, 0.98, 0.02), (0.34, 0.36, 0.74))
     d = smooth_min(d, ellipsoid(p, (0, 1.07, -0.46), (0.29, 0.36, 0.36)), 0.15)
     d = smooth_min(d, ellipsoid(p, (0, 1.03, 0.56), (0.31, 0.33, 0.30)), 0.12)
@@ -176,29 +240,43 @@ def animal_distance(p):
 
 
 def surface_nets(distance, low, cell, size):
-    """The zero of a distance as quads, a vertex in each cell that it crosses (naive surface nets)."""
+    """The zero of a distance as quads, a vertex in each cell that it crosses (naive surface
+    nets)."""
     nx, ny, nz = size
     values = {}
     for i in range(nx + 1):
         for j in range(ny + 1):
             for k in range(nz + 1):
-                values[i, j, k] = distance((low[0] + cell * i, low[1] + cell * j, low[2] + cell * k))
+                values[i, j, k] = distance(
+                    (low[0] + cell * i, low[1] + cell * j, low[2] + cell * k)
+                )
     mesh, number = Mesh(), {}
     corners = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]
-    edges = [(a, b) for a in corners for b in corners if a < b and sum(p != q for p, q in zip(a, b)) == 1]
+    edges = [
+        (a, b) for a in corners for b in corners if a < b and sum(p != q for p, q in zip(a, b)) == 1
+    ]
     for i in range(nx):
         for j in range(ny):
             for k in range(nz):
                 hits = []
                 for a, b in edges:
-                    va, vb = values[i + a[0], j + a[1], k + a[2]], values[i + b[0], j + b[1], k + b[2]]
+                    va, vb = (
+                        values[i + a[0], j + a[1], k + a[2]],
+                        values[i + b[0], j + b[1], k + b[2]],
+                    )
                     if (va < 0) != (vb < 0):
                         t = va / (va - vb)
                         hits.append(tuple(mix(p, q, t) for p, q in zip(a, b)))
                 if hits:
                     mean = [sum(h[n] for h in hits) / len(hits) for n in range(3)]
                     number[i, j, k] = len(mesh.vertices)
-                    mesh.vertices.append((low[0] + cell * (i + mean[0]), low[1] + cell * (j + mean[1]), low[2] + cell * (k + mean[2])))
+                    mesh.vertices.append(
+                        (
+                            low[0] + cell * (i + mean[0]),
+                            low[1] + cell * (j + mean[1]),
+                            low[2] + cell * (k + mean[2]),
+                        )
+                    )
     for (i, j, k), inside in values.items():
         for axis in range(3):
             step = [0, 0, 0]
@@ -208,7 +286,12 @@ def surface_nets(distance, low, cell, size):
                 continue
             u, v = [0, 0, 0], [0, 0, 0]
             u[(axis + 1) % 3], v[(axis + 2) % 3] = 1, 1
-            ring = [number.get((i - a * u[0] - b * v[0], j - a * u[1] - b * v[1], k - a * u[2] - b * v[2])) for a, b in ((1, 1), (0, 1), (0, 0), (1, 0))]
+            ring = [
+                number.get(
+                    (i - a * u[0] - b * v[0], j - a * u[1] - b * v[1], k - a * u[2] - b * v[2])
+                )
+                for a, b in ((1, 1), (0, 1), (0, 0), (1, 0))
+            ]
             if None in ring:
                 continue
             a, b, c, d = ring if inside < 0 else ring[::-1]
@@ -230,7 +313,11 @@ def tube(points, radii, sides=16):
         second = cross(way, first)
         for s in range(sides):
             t = 2 * math.pi * s / sides
-            mesh.vertices.append(tuple(p[k] + r * (math.cos(t) * first[k] + math.sin(t) * second[k]) for k in range(3)))
+            mesh.vertices.append(
+                tuple(
+                    p[k] + r * (math.cos(t) * first[k] + math.sin(t) * second[k]) for k in range(3)
+                )
+            )
     for n in range(len(points) - 1):
         for s in range(sides):
             a, b = n * sides + s, n * sides + (s + 1) % sides
@@ -247,7 +334,14 @@ def tube(points, radii, sides=16):
 def horns():
     mesh = Mesh()
     for side in (-1, 1):
-        points = [(side * (0.08 + 0.42 * math.sin(1.35 * t)), 1.40 + 0.02 * t + 0.24 * t * t * t, -1.04 - 0.10 * math.sin(2.2 * t)) for t in (n / 20 for n in range(21))]
+        points = [
+            (
+                side * (0.08 + 0.42 * math.sin(1.35 * t)),
+                1.40 + 0.02 * t + 0.24 * t * t * t,
+                -1.04 - 0.10 * math.sin(2.2 * t),
+            )
+            for t in (n / 20 for n in range(21))
+        ]
         part = tube(points, [0.045 * (1 - 0.93 * (n / 20) ** 1.3) for n in range(21)])
         mesh.add(part.vertices, part.triangles)
     return mesh
@@ -262,21 +356,37 @@ def hooves():
 
 
 def muzzle():
-    return surface_nets(lambda p: ellipsoid(p, (0, 1.085, -1.43), (0.095, 0.075, 0.055)), (-0.12, 0.99, -1.51), 0.012, (20, 16, 14))
+    return surface_nets(
+        lambda p: ellipsoid(p, (0, 1.085, -1.43), (0.095, 0.075, 0.055)),
+        (-0.12, 0.99, -1.51),
+        0.012,
+        (20, 16, 14),
+    )
 
 
 def rock():
     """What it stands on: a flat stone."""
+
     def distance(p):
-        bumps = 0.03 * math.sin(5 * p[0] + 1) * math.sin(4 * p[2]) + 0.02 * math.sin(11 * p[0] + 3 * p[2]) * math.cos(9 * p[2])
-        return smooth_min(ellipsoid(p, (0, -0.62, 0), (1.7, 0.62, 2.1)), 9.0, 0.1) + bumps * (1 if p[1] < -0.06 else 0.25)
+        bumps = 0.03 * math.sin(5 * p[0] + 1) * math.sin(4 * p[2]) + 0.02 * math.sin(
+            11 * p[0] + 3 * p[2]
+        ) * math.cos(9 * p[2])
+        return smooth_min(ellipsoid(p, (0, -0.62, 0), (1.7, 0.62, 2.1)), 9.0, 0.1) + bumps * (
+            1 if p[1] < -0.06 else 0.25
+        )
+
     return surface_nets(distance, (-1.9, -1.4, -2.3), 0.1, (38, 15, 46))
 
 
-# --- A house with a roof of sod ---------------------------------------------------------------------------------------------------
+# --- A house with a roof of sod -------------------------------------------------------------------
+
 
 def meadow_height(x, z):
-    return 0.28 * math.sin(0.35 * x + 0.6) * math.cos(0.28 * z) + 0.10 * math.sin(0.9 * x - 0.5 * z) - 0.25
+    return (
+        0.28 * math.sin(0.35 * x + 0.6) * math.cos(0.28 * z)
+        + 0.10 * math.sin(0.9 * x - 0.5 * z)
+        - 0.25
+    )
 
 
 HALF_LONG, HALF_DEEP, EAVES = 3.4, 2.3, 2.15
@@ -285,7 +395,9 @@ HALF_LONG, HALF_DEEP, EAVES = 3.4, 2.3, 2.15
 def roof_section(t):
     """Half a roof's cross-section from ridge (0) to eave (1): bellied, swept out at the eave."""
     z = t * 3.15
-    return 4.35 - 2.55 * t + 0.42 * math.sin(math.pi * t) * (0.6 - t) + 0.30 * max(t - 0.8, 0) ** 2 * 10, z
+    return 4.35 - 2.55 * t + 0.42 * math.sin(math.pi * t) * (0.6 - t) + 0.30 * max(
+        t - 0.8, 0
+    ) ** 2 * 10, z
 
 
 def roof():
@@ -345,13 +457,19 @@ def walls():
             mesh.quad(*(corners if side < 0 else corners[::-1]))
         z = side * HALF_DEEP
         y = roof_section(HALF_DEEP / 3.15)[0] - 0.3
-        corners = [(-HALF_LONG, -0.9, z), (HALF_LONG, -0.9, z), (HALF_LONG, y, z), (-HALF_LONG, y, z)]
+        corners = [
+            (-HALF_LONG, -0.9, z),
+            (HALF_LONG, -0.9, z),
+            (HALF_LONG, y, z),
+            (-HALF_LONG, y, z),
+        ]
         mesh.quad(*(corners if side > 0 else corners[::-1]))
     return weld(mesh)
 
 
 def weld(mesh):
-    """One vertex a place and side: faces that meet at less than 50 degrees share it, so that normals are smooth there."""
+    """One vertex a place and side: faces that meet at less than 50 degrees share it, so that
+    normals are smooth there."""
     out, known = Mesh(), {}
     for t in mesh.triangles:
         a, b, c = (mesh.vertices[i] for i in t)
@@ -414,7 +532,9 @@ def mound():
         for i in range(n):
             a, s = 2 * math.pi * i / n, r / n
             x, z = 1.2 * s * math.cos(a), 1.2 * s * math.sin(a)
-            mesh.vertices.append((x, 0.30 * (1 - s * s) ** 2 + 0.012 * math.sin(9 * x + 1) * math.sin(8 * z), z))
+            mesh.vertices.append(
+                (x, 0.30 * (1 - s * s) ** 2 + 0.012 * math.sin(9 * x + 1) * math.sin(8 * z), z)
+            )
     for i in range(n):
         mesh.triangles.append((0, 1 + (i + 1) % n, 1 + i))
         for r in range(n - 1):
@@ -423,15 +543,23 @@ def mound():
     return mesh
 
 
-# --- The published near scenes ----------------------------------------------------------------------------------------------------
+# --- The published near scenes --------------------------------------------------------------------
+
 
 def hills_height(x, z):
-    """A hollow among rounded hills of some 4 m: level where the balls roll and the body lies, beyond its rim one cannot see far."""
-    y = 1.5 * math.sin(0.26 * x + 0.5) * math.cos(0.23 * z) + 0.8 * math.sin(0.47 * x - 0.35 * z + 1.0) + 0.2 * math.sin(1.1 * x) * math.sin(0.9 * z + 2.0)
+    """A hollow among rounded hills of some 4 m: level where the balls roll and the body lies,
+    beyond its rim one cannot see far."""
+    y = (
+        1.5 * math.sin(0.26 * x + 0.5) * math.cos(0.23 * z)
+        + 0.8 * math.sin(0.47 * x - 0.35 * z + 1.0)
+        + 0.2 * math.sin(1.1 * x) * math.sin(0.9 * z + 2.0)
+    )
     out = math.hypot(x - 0.5, z - 6.5)
     rise = max(0.0, min(1.0, (out - 4.0) / 5.5))
-    rim = 3.3 * rise * rise * (3 - 2 * rise) * math.exp(-max(out - 9.5, 0.0) ** 2 / 22)
-    return y * min(1.0, out / 12) ** 1.5 + rim * (1 + 0.22 * math.sin(2.0 * math.atan2(z - 6.5, x - 0.5) + 0.8))
+    rim = 3.3 * rise * rise * (3 - 2 * rise) * math.exp(-(max(out - 9.5, 0.0) ** 2) / 22)
+    return y * min(1.0, out / 12) ** 1.5 + rim * (
+        1 + 0.22 * math.sin(2.0 * math.atan2(z - 6.5, x - 0.5) + 0.8)
+    )
 
 
 def grid(half, cells, height):
@@ -454,10 +582,16 @@ def sleeper_distance(p):
     d = ellipsoid(p, (-0.30, 0.30, 0.0), (0.48, 0.29, 0.26))
     d = smooth_min(d, ellipsoid(p, (0.28, 0.27, 0.02), (0.34, 0.26, 0.25)), 0.2)
     d = smooth_min(d, ellipsoid(p, (-1.00, 0.22, 0.02), (0.22, 0.19, 0.17)), 0.10)
-    for a, b, ra, rb in [((0.35, 0.17, 0.1), (0.62, 0.15, 0.62), 0.17, 0.12), ((0.62, 0.15, 0.62), (1.25, 0.12, 0.42), 0.11, 0.08),
-                         ((0.35, 0.38, 0.1), (0.80, 0.36, 0.55), 0.17, 0.12), ((0.80, 0.36, 0.55), (1.30, 0.16, 0.20), 0.11, 0.08),
-                         ((-0.62, 0.45, 0.1), (-0.42, 0.32, 0.48), 0.10, 0.08), ((-0.42, 0.32, 0.48), (-0.85, 0.14, 0.52), 0.08, 0.06),
-                         ((-0.65, 0.14, 0.12), (-0.95, 0.10, 0.44), 0.10, 0.07), ((1.25, 0.12, 0.42), (1.32, 0.12, 0.60), 0.08, 0.05)]:
+    for a, b, ra, rb in [
+        ((0.35, 0.17, 0.1), (0.62, 0.15, 0.62), 0.17, 0.12),
+        ((0.62, 0.15, 0.62), (1.25, 0.12, 0.42), 0.11, 0.08),
+        ((0.35, 0.38, 0.1), (0.80, 0.36, 0.55), 0.17, 0.12),
+        ((0.80, 0.36, 0.55), (1.30, 0.16, 0.20), 0.11, 0.08),
+        ((-0.62, 0.45, 0.1), (-0.42, 0.32, 0.48), 0.10, 0.08),
+        ((-0.42, 0.32, 0.48), (-0.85, 0.14, 0.52), 0.08, 0.06),
+        ((-0.65, 0.14, 0.12), (-0.95, 0.10, 0.44), 0.10, 0.07),
+        ((1.25, 0.12, 0.42), (1.32, 0.12, 0.60), 0.08, 0.05),
+    ]:
         d = smooth_min(d, capsule(p, a, b, ra, rb), 0.09)
     return d
 
@@ -480,7 +614,12 @@ def main():
     for name, make in (("horns", horns), ("hooves", hooves), ("muzzle", muzzle), ("rock", rock)):
         make().write(terrains / "fur" / f"{name}.glb")
     roof().write(terrains / "roof" / "house.glb")
-    for name, make in (("walls", walls), ("joinery", joinery), ("panes", panes), ("chimney", chimney)):
+    for name, make in (
+        ("walls", walls),
+        ("joinery", joinery),
+        ("panes", panes),
+        ("chimney", chimney),
+    ):
         make().write(terrains / "roof" / f"{name}.glb")
     grid(20, 96, hills_height).write(terrains / "near" / "nature" / "hills.glb")
     sleeper().write(terrains / "near" / "nature" / "sleeper.glb")

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes the masks of terrains/tracks/crop_circle.toml and mown.toml, and terrains/tracks/herd.toml.
+"""Writes the masks of terrains/tracks/crop_circle.toml and mown.toml, and
+terrains/tracks/herd.toml.
 
     make_track_scenes.py [DIRECTORY]     default: terrains/tracks beside this script's directory
 
-A mask is an 8-bit grey PNG: how much lies, 0 to 255, or the way that it lies, 0 to 255 for 0 to 360 degrees of yaw. The same bytes every time."""
+A mask is an 8-bit grey PNG: how much lies, 0 to 255, or the way that it lies, 0 to 255 for 0 to 360
+degrees of yaw. The same bytes every time."""
+
 import math
 import pathlib
 import random
@@ -15,12 +18,20 @@ import zlib
 
 def write_grey(path, rows):
     """`rows`: lists of values 0..1."""
+
     def chunk(name, data):
-        return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        return (
+            struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+        )
+
     height, width = len(rows), len(rows[0])
     raw = b"".join(b"\0" + bytes(max(0, min(255, int(255 * v + 0.5))) for v in row) for row in rows)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
-                     chunk(b"IDAT", zlib.compress(raw, 9)) + chunk(b"IEND", b""))
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n"
+        + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(raw, 9))
+        + chunk(b"IEND", b"")
+    )
 
 
 def yaw(x, z):
@@ -29,9 +40,12 @@ def yaw(x, z):
 
 
 def crop_circle(x, z):
-    """How much lies there and which way (m from the middle): a disc laid round, a ring laid the other way, six discs joined to it."""
+    """How much lies there and which way (m from the middle): a disc laid round, a ring laid the
+    other way, six discs joined to it."""
+
     def inside(distance):
         return max(0.0, min(1.0, 0.5 - distance / 0.3))  # a third of a metre from standing to lying
+
     r = math.hypot(x, z)
     if r < 17:
         return inside(r - 14) if r > 0.01 else 1.0, yaw(-z + 0.35 * x, x + 0.35 * z)
@@ -64,7 +78,8 @@ def write_masks(directory, name, size_m, pixel_m, pattern):
 
 
 HERD = """# SPDX-License-Identifier: Apache-2.0
-# Forty animals cross the meadow from the west to the east, as spheres that the grass feels. Written by scripts/make_track_scenes.py.
+# Forty animals cross the meadow from the west to the east, as spheres that the grass feels. Written
+by scripts/make_track_scenes.py.
 [terrain]
 elevation = "../jacksboro/height.tif"
 detail_m = 0.5
@@ -118,7 +133,11 @@ def herd(seed=40):
 
 
 def main():
-    given = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).resolve().parent.parent / "terrains" / "tracks"
+    given = (
+        sys.argv[1]
+        if len(sys.argv) > 1
+        else pathlib.Path(__file__).resolve().parent.parent / "terrains" / "tracks"
+    )
     directory = pathlib.Path(given)
     write_masks(directory, "crop_circle", 80, 0.25, crop_circle)
     write_masks(directory, "mown", 192, 0.5, mown)

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of docs/texgen.md: a row of three pictures for every key of a preset, a sheet a section, and the
+"""Makes the pictures of docs/texgen.md: a row of three pictures for every key of a preset, a sheet
+a section, and the
 sheets of the shipped presets. Each picture is a set that texgen bakes and `sward render` draws.
 
     scripts/texgen_pictures.py [--bin build/release/bin] [--only shape,head] [--out docs/gallery]
 
 Needs Pillow. Takes about fifteen minutes on two cores.
 """
+
 import argparse
 import copy
 import subprocess
@@ -23,28 +25,44 @@ CAPTION = 17
 INK, PAPER = (225, 225, 220), (34, 35, 36)
 COLOURS = 160  # a sheet's palette: pictures of grass are noise to PNG otherwise
 
-# Presets, as nested tables. A stand of few wide blades shows shape, a dense one shows colour and light.
-FEW = {"patch": {"side_m": 2.0, "density_per_m2": 70.0, "variants": 1},
-       "tufts": {"share": 0.0},
-       "blade": {"length_m": [0.24, 0.28], "width_m": [0.010, 0.012], "lean_deg": [0.0, 10.0],
-                 "curvature_deg": [10.0, 25.0], "droop": [0.0, 0.1]},
-       "colour": {"dry_share": 0.0, "variation": 0.3},
-       "texture": {"size": 128, "layers": 4, "slices": 4, "levels": 2}}
-DENSE = {"patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
-         "texture": {"size": 128, "layers": 4, "slices": 4, "levels": 2}}
+# Presets, as nested tables. A stand of few wide blades shows shape, a dense one shows colour and
+# light.
+FEW = {
+    "patch": {"side_m": 2.0, "density_per_m2": 70.0, "variants": 1},
+    "tufts": {"share": 0.0},
+    "blade": {
+        "length_m": [0.24, 0.28],
+        "width_m": [0.010, 0.012],
+        "lean_deg": [0.0, 10.0],
+        "curvature_deg": [10.0, 25.0],
+        "droop": [0.0, 0.1],
+    },
+    "colour": {"dry_share": 0.0, "variation": 0.3},
+    "texture": {"size": 128, "layers": 4, "slices": 4, "levels": 2},
+}
+DENSE = {
+    "patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
+    "texture": {"size": 128, "layers": 4, "slices": 4, "levels": 2},
+}
 TUFTS = dict(DENSE, patch={"side_m": 2.0, "density_per_m2": 700.0, "variants": 1})
 # A few big bushes, so that the period shows.
-SPARSE = {"patch": {"side_m": 2.0, "density_per_m2": 150.0, "variants": 1},
-          "blade": {"width_m": [0.012, 0.018], "length_m": [0.12, 0.20], "lean_deg": [0.0, 30.0]},
-          "tufts": {"share": 1.0, "blades": [60, 300], "radius_m": [0.05, 0.25]}, "texture": DENSE["texture"]}
+SPARSE = {
+    "patch": {"side_m": 2.0, "density_per_m2": 150.0, "variants": 1},
+    "blade": {"width_m": [0.012, 0.018], "length_m": [0.12, 0.20], "lean_deg": [0.0, 30.0]},
+    "tufts": {"share": 1.0, "blades": [60, 300], "radius_m": [0.05, 0.25]},
+    "texture": DENSE["texture"],
+}
 HEADS = dict(FEW, element="seed_head", blade=dict(FEW["blade"], width_m=[0.016, 0.02]))
-FLAT = {"patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
-        "texture": {"size": 256, "layers": 16, "slices": 16, "levels": 4}}
+FLAT = {
+    "patch": {"side_m": 2.0, "density_per_m2": 1400.0, "variants": 1},
+    "texture": {"size": 256, "layers": 16, "slices": 16, "levels": 4},
+}
 
 
 @dataclass
 class View:
     """Where the camera stands and what it draws."""
+
     height_m: float
     pitch_deg: float
     fov_deg: float
@@ -57,7 +75,9 @@ CLOSE = View(0.46, -19, 25, arguments=["--tiers", "blades", "--blades-distance",
 WINDY = View(0.46, -19, 25, yaw_deg=0, wind_mps=12, arguments=CLOSE.arguments)
 STAND = View(0.75, -33, 44, arguments=["--tiers", "blades", "--blades-distance", "6"])
 ABOVE = View(2.6, -89, 40, arguments=["--tiers", "blades", "--blades-distance", "8"])
-AGAINST = View(0.42, -14, 44, yaw_deg=135, arguments=["--tiers", "blades", "--blades-distance", "8"])
+AGAINST = View(
+    0.42, -14, 44, yaw_deg=135, arguments=["--tiers", "blades", "--blades-distance", "8"]
+)
 AWAY = View(0.42, -14, 44, yaw_deg=315, arguments=["--tiers", "blades", "--blades-distance", "8"])
 HIGH = View(9, -89, 40, arguments=["--tiers", "blades", "--blades-distance", "15"])
 SHELLS = View(1.0, -24, 36, arguments=["--tiers", "shells", "--force-tier", "0"])
@@ -67,7 +87,7 @@ FAR = View(30, -22, 30)
 
 @dataclass
 class Row:
-    key: str           # as in docs/texgen.md
+    key: str  # as in docs/texgen.md
     unit: str
     base: dict
     view: View
@@ -85,18 +105,40 @@ def rows():
             Row("seed", "", dict(FEW), CLOSE, [1, 2, 3]),
         ],
         "tufts": [
-            Row("tufts.share", "of the blades", dict(TUFTS, tufts={"radius_m": [0.03, 0.06], "blades": [40, 80]}), ABOVE, [0.0, 0.55, 1.0]),
-            Row("tufts.radius_m", "m", dict(TUFTS, tufts={"share": 0.9, "blades": [40, 80]}), ABOVE,
-                [[0.01, 0.03], [0.06, 0.12], [0.2, 0.4]]),
-            Row("tufts.blades", "in a tuft", dict(TUFTS, tufts={"share": 0.9, "radius_m": [0.03, 0.07]}), ABOVE,
-                [[3, 6], [30, 60], [150, 250]]),
+            Row(
+                "tufts.share",
+                "of the blades",
+                dict(TUFTS, tufts={"radius_m": [0.03, 0.06], "blades": [40, 80]}),
+                ABOVE,
+                [0.0, 0.55, 1.0],
+            ),
+            Row(
+                "tufts.radius_m",
+                "m",
+                dict(TUFTS, tufts={"share": 0.9, "blades": [40, 80]}),
+                ABOVE,
+                [[0.01, 0.03], [0.06, 0.12], [0.2, 0.4]],
+            ),
+            Row(
+                "tufts.blades",
+                "in a tuft",
+                dict(TUFTS, tufts={"share": 0.9, "radius_m": [0.03, 0.07]}),
+                ABOVE,
+                [[3, 6], [30, 60], [150, 250]],
+            ),
         ],
         "shape": [
             Row("blade.length_m", "m", FEW, CLOSE, [[0.06, 0.08], [0.18, 0.22], [0.34, 0.38]]),
             Row("blade.width_m", "m", FEW, CLOSE, [[0.002, 0.003], [0.008, 0.010], [0.024, 0.03]]),
             Row("blade.taper", "", FEW, CLOSE, [0.5, 2.0, 12.0]),
             Row("blade.lean_deg", "degrees", FEW, CLOSE, [[0.0, 2.0], [25.0, 30.0], [60.0, 65.0]]),
-            Row("blade.curvature_deg", "degrees", FEW, CLOSE, [[0.0, 2.0], [40.0, 50.0], [100.0, 110.0]]),
+            Row(
+                "blade.curvature_deg",
+                "degrees",
+                FEW,
+                CLOSE,
+                [[0.0, 2.0], [40.0, 50.0], [100.0, 110.0]],
+            ),
             Row("blade.droop", "0 to 1", FEW, CLOSE, [[0.0, 0.0], [0.5, 0.5], [1.0, 1.0]]),
             Row("blade.stiffness", "in wind", FEW, WINDY, [[0.0, 0.05], [0.5, 0.5], [0.95, 1.0]]),
         ],
@@ -107,19 +149,48 @@ def rows():
             Row("head.fullness", "", HEADS, CLOSE, [0.25, 1.0, 4.0]),
         ],
         "colour": [
-            Row("colour.root", "reflectance", FEW, CLOSE, [[0.02, 0.02, 0.01], [0.052, 0.088, 0.022], rust]),
-            Row("colour.tip", "reflectance", FEW, CLOSE, [[0.04, 0.09, 0.06], [0.078, 0.152, 0.032], rust]),
-            Row("colour.dry", "at dry_share 0.5", dict(DENSE, colour={"dry_share": 0.5}), STAND,
-                [[0.10, 0.06, 0.03], [0.215, 0.175, 0.08], white]),
+            Row(
+                "colour.root",
+                "reflectance",
+                FEW,
+                CLOSE,
+                [[0.02, 0.02, 0.01], [0.052, 0.088, 0.022], rust],
+            ),
+            Row(
+                "colour.tip",
+                "reflectance",
+                FEW,
+                CLOSE,
+                [[0.04, 0.09, 0.06], [0.078, 0.152, 0.032], rust],
+            ),
+            Row(
+                "colour.dry",
+                "at dry_share 0.5",
+                dict(DENSE, colour={"dry_share": 0.5}),
+                STAND,
+                [[0.10, 0.06, 0.03], [0.215, 0.175, 0.08], white],
+            ),
             Row("colour.dry_share", "of the blades", DENSE, STAND, [0.0, 0.3, 1.0]),
             Row("colour.variation", "0 to 1", DENSE, STAND, [0.0, 0.45, 1.0]),
-            Row("colour.head", "reflectance", HEADS, CLOSE, [[0.16, 0.13, 0.06], white, [0.12, 0.04, 0.10]]),
+            Row(
+                "colour.head",
+                "reflectance",
+                HEADS,
+                CLOSE,
+                [[0.16, 0.13, 0.06], white, [0.12, 0.04, 0.10]],
+            ),
         ],
         "light": [
             Row("light.kd", "diffuse", DENSE, AWAY, [0.3, 1.0, 1.8]),
             Row("light.pd", "its power", DENSE, AWAY, [0.2, 1.0, 8.0]),
             Row("light.ks", "glossy", DENSE, AWAY, [0.0, 0.06, 0.4]),
-            Row("light.ps", "its power (ks 0.4)", dict(DENSE, light={"ks": 0.4}), AWAY, [2.0, 18.0, 120.0]),
+            Row(
+                "light.ps",
+                "its power (ks 0.4)",
+                dict(DENSE, light={"ks": 0.4}),
+                AWAY,
+                [2.0, 18.0, 120.0],
+            ),
             Row("light.translucency", "against the sun", DENSE, AGAINST, [0.0, 0.45, 1.0]),
         ],
         "texture": [
@@ -134,9 +205,12 @@ def rows():
 
 # The shipped presets: camera (height, pitch, field of view), and whether the whole eye level fits.
 PRESETS = {
-    "meadow": View(1.7, -12, 60, wind_mps=4), "lawn": View(0.35, -12, 60, wind_mps=4),
-    "wheat": View(1.7, -12, 60, wind_mps=4), "heath": View(1.4, -14, 60, wind_mps=4),
-    "dry-steppe": View(1.7, -12, 60, wind_mps=4), "reeds": View(3.4, -10, 60, wind_mps=4),
+    "meadow": View(1.7, -12, 60, wind_mps=4),
+    "lawn": View(0.35, -12, 60, wind_mps=4),
+    "wheat": View(1.7, -12, 60, wind_mps=4),
+    "heath": View(1.4, -14, 60, wind_mps=4),
+    "dry-steppe": View(1.7, -12, 60, wind_mps=4),
+    "reeds": View(3.4, -10, 60, wind_mps=4),
     "fur": View(0.06, -30, 50, wind_mps=0),
 }
 
@@ -161,7 +235,10 @@ def toml_text(preset):
             lines += ["[[species]]", f'element = "{element}"']
         for section, keys in preset.items():
             if isinstance(keys, dict) and (element is not None and section in ours) == wanted:
-                lines += [f"[{prefix}{section}]", *(f"{k} = {toml_value(v)}" for k, v in keys.items())]
+                lines += [
+                    f"[{prefix}{section}]",
+                    *(f"{k} = {toml_value(v)}" for k, v in keys.items()),
+                ]
     return "\n".join(lines) + "\n"
 
 
@@ -206,8 +283,19 @@ pitch_deg = {view.pitch_deg}
 fov_deg = {view.fov_deg}
 """)
         out = self.folder / "picture.png"
-        self.run(self.binaries / "sward", "render", scene, "-o", out, "--camera", "here", "-q",
-                 "--size", f"{2 * size[0]}x{2 * size[1]}", *view.arguments)
+        self.run(
+            self.binaries / "sward",
+            "render",
+            scene,
+            "-o",
+            out,
+            "--camera",
+            "here",
+            "-q",
+            "--size",
+            f"{2 * size[0]}x{2 * size[1]}",
+            *view.arguments,
+        )
         with Image.open(out) as picture:
             return picture.convert("RGB").resize(size, Image.Resampling.LANCZOS)
 
@@ -222,9 +310,15 @@ def font(size):
 
 
 def shown(value):
-    return " to ".join(f"{v:g}" for v in value) if isinstance(value, list) and len(value) == 2 else \
-        ", ".join(f"{v:g}" for v in value) if isinstance(value, list) else \
-        value if isinstance(value, str) else f"{value:g}"
+    return (
+        " to ".join(f"{v:g}" for v in value)
+        if isinstance(value, list) and len(value) == 2
+        else ", ".join(f"{v:g}" for v in value)
+        if isinstance(value, list)
+        else value
+        if isinstance(value, str)
+        else f"{value:g}"
+    )
 
 
 def key_sheet(studio, sheet_rows):
@@ -241,7 +335,13 @@ def key_sheet(studio, sheet_rows):
         for j, value in enumerate(row.values):
             x = LABEL_WIDTH + j * (THUMB[0] + 4)
             sheet.paste(studio.thumb(with_value(row.base, row.key, value), row.view), (x, y + 2))
-            draw.text((x + THUMB[0] / 2, y + 2 + THUMB[1] + CAPTION / 2), shown(value), fill=INK, font=font(12), anchor="mm")
+            draw.text(
+                (x + THUMB[0] / 2, y + 2 + THUMB[1] + CAPTION / 2),
+                shown(value),
+                fill=INK,
+                font=font(12),
+                anchor="mm",
+            )
     return sheet
 
 
@@ -251,13 +351,22 @@ def preset_sheet(studio, names, size=(640, 360)):
     for i, name in enumerate(names):
         x, y = i % 2 * (size[0] + 4), i // 2 * (size[1] + 4)
         sheet.paste(studio.render(studio.bake(name), PRESETS[name], size), (x, y))
-        draw.text((x + 10, y + 8), name, fill=(255, 255, 255), font=font(20), stroke_width=2, stroke_fill=(0, 0, 0))
+        draw.text(
+            (x + 10, y + 8),
+            name,
+            fill=(255, 255, 255),
+            font=font(20),
+            stroke_width=2,
+            stroke_fill=(0, 0, 0),
+        )
     return sheet
 
 
 def save(sheet, path, colours):
     path.parent.mkdir(parents=True, exist_ok=True)
-    sheet.quantize(colours, Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE).save(path, optimize=True)
+    sheet.quantize(colours, Image.Quantize.MEDIANCUT, kmeans=2, dither=Image.Dither.NONE).save(
+        path, optimize=True
+    )
     print(f"{path} {path.stat().st_size // 1024} KB")
 
 
@@ -272,7 +381,11 @@ def main():
         studio = Studio(options.bin, folder)
         for name, sheet_rows in rows().items():
             if not only or name in only:
-                save(key_sheet(studio, sheet_rows), Path(options.out) / "texgen" / f"{name}.png", COLOURS)
+                save(
+                    key_sheet(studio, sheet_rows),
+                    Path(options.out) / "texgen" / f"{name}.png",
+                    COLOURS,
+                )
         if not only or "presets" in only:
             names = list(PRESETS)
             save(preset_sheet(studio, names[:4]), Path(options.out) / "presets.png", 256)

@@ -1,12 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Makes the pictures of docs/wind.md from the scenes in terrains/wind: the flow from above (line integral convolution of what
-`sward wind` writes, coloured by speed) at two moments, or beside the grass that `sward render` draws at the second.
+"""Makes the pictures of docs/wind.md from the scenes in terrains/wind: the flow from above (line
+integral convolution of what
+`sward wind` writes, coloured by speed) at two moments, or beside the grass that `sward render`
+draws at the second.
 
-    build/venv/bin/python scripts/wind_pictures.py [--bin build/release/bin] [--only storm,arrows] [--out docs/gallery/wind]
+    build/venv/bin/python scripts/wind_pictures.py [--bin build/release/bin] [--only storm,arrows]
+    [--out docs/gallery/wind]
 
-Needs numpy, OpenEXR and Pillow, which the tests' environment has. Takes about five minutes on two cores.
+Needs numpy, OpenEXR and Pillow, which the tests' environment has. Takes about five minutes on two
+cores.
 """
+
 import argparse
 import subprocess
 import tempfile
@@ -21,12 +26,21 @@ FLOW, GRASS = (420, 420), (640, 420)
 CAPTION = 18
 INK, PAPER, SOLID = (225, 225, 220), (34, 35, 36), (150, 146, 140)
 COLOURS = 128  # a picture's palette: grass is noise to PNG otherwise
-STREAK = 14    # pixels, both ways
-# By scene: first moment (s; the second comes at twice that), metres across the flow's picture, speed (m/s) of the brightest colour
-SCENES = {"obstacles": (5, 150, 14), "meeting": (4, 110, 12), "arrows": (4, 110, 10), "helicopter": (7, 100, 14),
-          "cyclone": (7, 110, 18), "storm": (4, 150, 40)}
+STREAK = 14  # pixels, both ways
+# By scene: first moment (s; the second comes at twice that), metres across the flow's picture,
+# speed (m/s) of the brightest colour
+SCENES = {
+    "obstacles": (5, 150, 14),
+    "meeting": (4, 110, 12),
+    "arrows": (4, 110, 10),
+    "helicopter": (7, 100, 14),
+    "cyclone": (7, 110, 18),
+    "storm": (4, 150, 40),
+}
 WITH_GRASS = ("storm",)  # near enough that blades show
-RAMP = np.array([(18, 24, 48), (24, 74, 110), (34, 138, 132), (140, 196, 96), (252, 232, 150)], float)
+RAMP = np.array(
+    [(18, 24, 48), (24, 74, 110), (34, 138, 132), (140, 196, 96), (252, 232, 150)], float
+)
 
 
 def ramp(x):
@@ -41,13 +55,17 @@ def sample(field, x, y):
     x, y = np.clip(x, 0, columns - 1.001), np.clip(y, 0, rows - 1.001)
     i, j = x.astype(int), y.astype(int)
     a, b = x - i, y - j
-    return (field[j, i] * (1 - a) + field[j, i + 1] * a) * (1 - b) + (field[j + 1, i] * (1 - a) + field[j + 1, i + 1] * a) * b
+    return (field[j, i] * (1 - a) + field[j, i + 1] * a) * (1 - b) + (
+        field[j + 1, i] * (1 - a) + field[j + 1, i + 1] * a
+    ) * b
 
 
 def flow_picture(path, metres, brightest):
     with OpenEXR.File(str(path), separate_channels=True) as file:
         cell = float(file.header()["cell_m"])
-        u, v, solid = (np.array(file.channels()[name].pixels, float) for name in ("u", "v", "solid"))
+        u, v, solid = (
+            np.array(file.channels()[name].pixels, float) for name in ("u", "v", "solid")
+        )
     width, height = FLOW
     scale = metres / cell / width  # cells a pixel
     x = (np.arange(width) - 0.5 * width + 0.5) * scale + 0.5 * u.shape[1] - 0.5
@@ -93,13 +111,45 @@ def main():
             scene = ROOT / "terrains/wind" / name
             run = [str(options.bin.resolve() / "sward")]
             flow = Path(folder) / "flow.%d.exr"
-            subprocess.run([*run, "wind", scene, "--time", str(2 * time), "--every", str(time), "-o", flow, "-q"], check=True)
+            subprocess.run(
+                [
+                    *run,
+                    "wind",
+                    scene,
+                    "--time",
+                    str(2 * time),
+                    "--every",
+                    str(time),
+                    "-o",
+                    flow,
+                    "-q",
+                ],
+                check=True,
+            )
             first, second = (flow_picture(str(flow) % n, metres, brightest) for n in (1, 2))
-            text = f"{metres} m from above, north up; speed from 0 (dark) to {brightest} m/s (bright)"
+            text = (
+                f"{metres} m from above, north up; speed from 0 (dark) to {brightest} m/s (bright)"
+            )
             if name in WITH_GRASS:
-                subprocess.run([*run, "render", scene, "--time", str(2 * time), "-o", png, "--size", "%dx%d" % GRASS, "-q"], check=True)
+                subprocess.run(
+                    [
+                        *run,
+                        "render",
+                        scene,
+                        "--time",
+                        str(2 * time),
+                        "-o",
+                        png,
+                        "--size",
+                        "%dx%d" % GRASS,
+                        "-q",
+                    ],
+                    check=True,
+                )
                 with Image.open(png) as grass:
-                    picture = with_caption(second, grass.convert("RGB"), f"{name} at {2 * time} s: {text}")
+                    picture = with_caption(
+                        second, grass.convert("RGB"), f"{name} at {2 * time} s: {text}"
+                    )
             else:
                 picture = with_caption(first, second, f"{name} at {time} and {2 * time} s: {text}")
             picture.save(options.out / f"{name}.png", optimize=True)

@@ -2,8 +2,10 @@
 """A grass set in Blender: texgen export SET -o DIR --for blender, then
     blender --background --python blender_scene.py -- DIR picture.png [SAMPLES]
 or, with bpy from PyPI, python blender_scene.py DIR picture.png [SAMPLES].
-Left, the blades as a mesh with their colours; right, volume.vdb with a material that shows it: density as extinction, and the grid
+Left, the blades as a mesh with their colours; right, volume.vdb with a material that shows it:
+density as extinction, and the grid
 `colour` as albedo."""
+
 import json
 import math
 import sys
@@ -11,7 +13,7 @@ from pathlib import Path
 
 import bpy
 
-arguments = sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else sys.argv[1:]
+arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else sys.argv[1:]
 folder, picture = Path(arguments[0]).resolve(), Path(arguments[1]).resolve()
 samples = int(arguments[2]) if len(arguments) > 2 else 32
 facts = json.loads((folder / "export.json").read_text())
@@ -35,7 +37,11 @@ def import_mesh():
     """Variant 0 with one material: COLOR_0 is linear albedo."""
     bpy.ops.import_scene.gltf(filepath=str(folder / "blades_mesh.glb"))
     grass, nodes, links = material("grass")
-    colour, surface, out = nodes.new("ShaderNodeVertexColor"), nodes.new("ShaderNodeBsdfDiffuse"), nodes.new("ShaderNodeOutputMaterial")
+    colour, surface, out = (
+        nodes.new("ShaderNodeVertexColor"),
+        nodes.new("ShaderNodeBsdfDiffuse"),
+        nodes.new("ShaderNodeOutputMaterial"),
+    )
     through, mix = nodes.new("ShaderNodeBsdfTranslucent"), nodes.new("ShaderNodeMixShader")
     mix.inputs[0].default_value = 0.3
     links.new(colour.outputs["Color"], surface.inputs["Color"])
@@ -50,11 +56,17 @@ def import_mesh():
         colour.layer_name = thing.data.color_attributes[0].name
         thing.data.materials.clear()
         thing.data.materials.append(grass)
-        print(thing.name, len(thing.data.vertices), "vertices,", [a.name for a in thing.data.attributes if a.name.startswith("_")])
+        print(
+            thing.name,
+            len(thing.data.vertices),
+            "vertices,",
+            [a.name for a in thing.data.attributes if a.name.startswith("_")],
+        )
 
 
 def import_volume():
-    """The file is y up: turned about x, as the glTF importer turns meshes. Its own frame begins at the patch's corner."""
+    """The file is y up: turned about x, as the glTF importer turns meshes. Its own frame begins at
+    the patch's corner."""
     data = bpy.data.volumes.new("volume")
     data.filepath = str(folder / "volume.vdb")
     thing = bpy.data.objects.new("volume", data)
@@ -66,11 +78,16 @@ def import_volume():
     fog, nodes, links = material("fog")
     density, colour = nodes.new("ShaderNodeAttribute"), nodes.new("ShaderNodeAttribute")
     density.attribute_name, colour.attribute_name = "density", "colour"
-    # Density is area over the face of a voxel; a ray sees half of the area of leaves that point every way.
+    # Density is area over the face of a voxel; a ray sees half of the area of leaves that point
+    # every way.
     extinction = nodes.new("ShaderNodeMath")
     extinction.operation = "MULTIPLY"
     extinction.inputs[1].default_value = 0.5 / VOXEL_M
-    scatter, absorb, add = nodes.new("ShaderNodeVolumeScatter"), nodes.new("ShaderNodeVolumeAbsorption"), nodes.new("ShaderNodeAddShader")
+    scatter, absorb, add = (
+        nodes.new("ShaderNodeVolumeScatter"),
+        nodes.new("ShaderNodeVolumeAbsorption"),
+        nodes.new("ShaderNodeAddShader"),
+    )
     out = nodes.new("ShaderNodeOutputMaterial")
     links.new(density.outputs["Fac"], extinction.inputs[0])
     for node in (scatter, absorb):

@@ -1,17 +1,35 @@
 # SPDX-License-Identifier: Apache-2.0
-"""blades_mesh.glb in Panda3D, bent by the wind from its second UV: panda_blades.py OUT_FOLDER PICTURE.png
+"""blades_mesh.glb in Panda3D, bent by the wind from its second UV: panda_blades.py OUT_FOLDER
+PICTURE.png
     pip install panda3d panda3d-gltf
     texgen export SET -o out/gltf --for gltf
-Draws without a window or a GPU; prints what the loader made of the file. Ends with 1 where the mesh or its picture is not as exported."""
+Draws without a window or a GPU; prints what the loader made of the file. Ends with 1 where the mesh
+or its picture is not as exported."""
+
 import json
 import struct
 import sys
 import tempfile
 from pathlib import Path
 
-from panda3d.core import CardMaker, Filename, GraphicsPipe, FrameBufferProperties, NodePath, PNMImage, Shader, Vec3, Vec4, WindowProperties, loadPrcFileData
+from panda3d.core import (
+    CardMaker,
+    Filename,
+    GraphicsPipe,
+    FrameBufferProperties,
+    NodePath,
+    PNMImage,
+    Shader,
+    Vec3,
+    Vec4,
+    WindowProperties,
+    loadPrcFileData,
+)
 
-loadPrcFileData("", "load-display p3headlessgl\naudio-library-name null\ngl-version 3 3\nnotify-level-display error")
+loadPrcFileData(
+    "",
+    "load-display p3headlessgl\naudio-library-name null\ngl-version 3 3\nnotify-level-display error",
+)
 from direct.showbase.ShowBase import ShowBase  # noqa: E402  reads what was set above
 import gltf  # noqa: E402
 
@@ -64,7 +82,16 @@ def picture(blades, name, wind):
     frame.set_rgb_color(True)
     frame.set_depth_bits(24)
     frame.set_multisamples(4)
-    buffer = base.graphicsEngine.make_output(base.pipe, "picture", 0, frame, WindowProperties.size(*SIZE), GraphicsPipe.BF_refuse_window, base.win.get_gsg(), base.win)
+    buffer = base.graphicsEngine.make_output(
+        base.pipe,
+        "picture",
+        0,
+        frame,
+        WindowProperties.size(*SIZE),
+        GraphicsPipe.BF_refuse_window,
+        base.win.get_gsg(),
+        base.win,
+    )
     buffer.set_clear_color(Vec4(0.76, 0.86, 0.95, 1))
     camera = base.makeCamera(buffer, camName="eye")
     camera.node().get_lens().set_aspect_ratio(SIZE[0] / SIZE[1])
@@ -77,23 +104,38 @@ def picture(blades, name, wind):
     if not buffer.get_screenshot(image):
         raise SystemExit("no picture could be read back")
     image.write(Filename.from_os_specific(str(Path(name).resolve())))
-    return sum(image.get_green(x, y) > 1.1 * image.get_blue(x, y) for x in range(0, SIZE[0], 4) for y in range(0, SIZE[1], 4)) / (SIZE[0] * SIZE[1] / 16)
+    return sum(
+        image.get_green(x, y) > 1.1 * image.get_blue(x, y)
+        for x in range(0, SIZE[0], 4)
+        for y in range(0, SIZE[1], 4)
+    ) / (SIZE[0] * SIZE[1] / 16)
 
 
 def loaded(path):
-    """The loader (1.3.0) takes every attribute of an application for one of the same name and fails: they are left out before."""
+    """The loader (1.3.0) takes every attribute of an application for one of the same name and
+    fails: they are left out before."""
     data = path.read_bytes()
-    size, = struct.unpack_from("<I", data, 12)
-    described = json.loads(data[20:20 + size])
+    (size,) = struct.unpack_from("<I", data, 12)
+    described = json.loads(data[20 : 20 + size])
     for mesh in described["meshes"]:
         for primitive in mesh["primitives"]:
-            primitive["attributes"] = {key: value for key, value in primitive["attributes"].items() if not key.startswith("_")}
+            primitive["attributes"] = {
+                key: value
+                for key, value in primitive["attributes"].items()
+                if not key.startswith("_")
+            }
     text = json.dumps(described).encode()
     text += b" " * (-len(text) % 4)
-    rest = data[20 + size:]
+    rest = data[20 + size :]
     with tempfile.TemporaryDirectory() as folder:
         plain = Path(folder) / "blades.glb"
-        plain.write_bytes(data[:8] + struct.pack("<I", 20 + len(text) + len(rest)) + struct.pack("<I4s", len(text), b"JSON") + text + rest)
+        plain.write_bytes(
+            data[:8]
+            + struct.pack("<I", 20 + len(text) + len(rest))
+            + struct.pack("<I4s", len(text), b"JSON")
+            + text
+            + rest
+        )
         return NodePath(gltf.load_model(str(plain)))
 
 
@@ -103,13 +145,17 @@ def main(out, name):
     for node in blades.find_all_matches("**/+GeomNode"):
         for i in range(node.node().get_num_geoms()):
             geom = node.node().get_geom(i)
-            columns |= {str(c.get_name()) for c in geom.get_vertex_data().get_format().get_columns()}
+            columns |= {
+                str(c.get_name()) for c in geom.get_vertex_data().get_format().get_columns()
+            }
             triangles += sum(p.get_num_faces() for p in geom.get_primitives())
     low, high = blades.get_tight_bounds()
     print("triangles", triangles, "columns", sorted(columns), "from", low, "to", high)
     share = picture(blades, name, Vec3(0.12, 0.0, -0.01))
     print(f"green in {100 * share:.1f} % of the picture")
-    return not ({"vertex", "normal", "color", "texcoord.1"} <= columns and triangles > 0 and share > 0.2)
+    return not (
+        {"vertex", "normal", "color", "texcoord.1"} <= columns and triangles > 0 and share > 0.2
+    )
 
 
 sys.exit(main(*sys.argv[1:]))

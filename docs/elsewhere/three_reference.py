@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Mean colour of a grass set from above as sward render draws it: three_reference.py SWARD SET [OPTION OF RENDER ...]. Prints R G B,
+"""Mean colour of a grass set from above as sward render draws it: three_reference.py SWARD SET
+[OPTION OF RENDER ...]. Prints R G B,
 linear, for three_check.mjs. Needs numpy and OpenEXR (tests/requirements.txt)."""
+
 import struct
 import subprocess
 import sys
@@ -34,11 +36,31 @@ def main(sward, grass, *options):
         (folder / "height.raw").write_bytes(struct.pack("<4096f", *[0.0] * 4096))
         (folder / "height.json").write_text('{"width": 64, "height": 64, "spacing_m": [10, 10]}')
         (folder / "scene.toml").write_text(SCENE.format(set=Path(grass).resolve()))
-        subprocess.run([Path(sward).resolve(), "render", "scene.toml", "-q", "-o", "top.exr", "--camera", "top", "--size", "576x576", *options],
-                       cwd=folder, check=True)
+        subprocess.run(
+            [
+                Path(sward).resolve(),
+                "render",
+                "scene.toml",
+                "-q",
+                "-o",
+                "top.exr",
+                "--camera",
+                "top",
+                "--size",
+                "576x576",
+                *options,
+            ],
+            cwd=folder,
+            check=True,
+        )
         with OpenEXR.File(str(folder / "top.exr"), separate_channels=True) as file:
             channels = file.channels()
-            print(*(f"{float(numpy.asarray(channels[c].pixels, dtype=numpy.float64).mean()):.5f}" for c in "RGB"))
+            print(
+                *(
+                    f"{float(numpy.asarray(channels[c].pixels, dtype=numpy.float64).mean()):.5f}"
+                    for c in "RGB"
+                )
+            )
 
 
 main(*sys.argv[1:])

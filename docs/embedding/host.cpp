@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A program with its own context, loop, framebuffer and box, in whose picture Sward draws the land: host SCENE SET OUT.ppm [FRAMES]
+// A program with its own context, loop, picture and box, around which Sward draws land: host SCENE SET OUT.ppm [FRAMES]
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -15,11 +15,8 @@
 #include <sward/view.h>
 
 namespace {
-
 constexpr int kWidth = 320, kHeight = 200;
-
-// A box of 1 m.
-constexpr char kVertex[] = R"(#version 450 core
+constexpr char kVertex[] = R"(#version 450 core // a box of 1 m
 uniform mat4 clip_from_box;
 void main() {
     const int corners[36] = int[](0,1,3,0,3,2, 4,6,7,4,7,5, 0,4,5,0,5,1, 2,3,7,2,7,6, 0,2,6,0,6,4, 1,5,7,1,7,3);
@@ -27,12 +24,12 @@ void main() {
     gl_Position = clip_from_box * vec4(c & 1, (c >> 1) & 1, (c >> 2) & 1, 1.0);
 })";
 constexpr char kFragment[] = R"(#version 450 core
-out vec4 radiance;
-void main() { radiance = vec4(1.5, 0.1, 0.05, 1.0); })";
+out vec4 radiance; void main() { radiance = vec4(1.5, 0.1, 0.05, 1.0); })";
 
 void make_context() {
     EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    const EGLint wants[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE}, version[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
+    const EGLint wants[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+    const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     eglInitialize(display, nullptr, nullptr);
@@ -64,10 +61,13 @@ int run(char** arguments, int frames) {
     GLuint framebuffer = 0, vertices = 0;
     glCreateVertexArrays(1, &vertices);
     glCreateFramebuffers(1, &framebuffer);
-    const GLuint colour = make_texture(GL_RGBA16F), depth = make_texture(GL_DEPTH_COMPONENT32F), program = make_program();
+    const GLuint colour = make_texture(GL_RGBA16F), depth = make_texture(GL_DEPTH_COMPONENT32F);
+    const GLuint program = make_program();
     glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, colour, 0);
     glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, depth, 0);
-
+    sward::Target target{.width = kWidth, .height = kHeight};
+    target.colour = target.scene_colour = colour; // Sward takes what stands in it, and gives it back among the grass
+    target.depth = target.scene_depth = depth;
     sward::FieldSource source;
     source.scene = arguments[1];
     source.grass_set = arguments[2];
@@ -92,7 +92,7 @@ int run(char** arguments, int frames) {
         glEnable(GL_DEPTH_TEST);
         glDepthFunc(GL_GREATER);
         glClearNamedFramebufferfv(framebuffer, GL_COLOR, 0, std::array<float, 4>{}.data());
-        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, std::array<float, 4>{}.data()); // reversed, as camera_of makes it: 0 is far away
+        glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, std::array<float, 4>{}.data()); // reversed: 0 is far away
         glUseProgram(program);
         glBindVertexArray(vertices);
         glUniformMatrix4fv(0, 1, GL_FALSE, glm::value_ptr(clip_from_box));
@@ -100,7 +100,7 @@ int run(char** arguments, int frames) {
         // Sward takes that picture, draws land and grass around and before the box, and gives it back.
         const glm::dvec3 eye = sward::eye_of(camera);
         field.simulate(frame / 60.0, {&eye, 1});
-        view.draw(camera, {.width = kWidth, .height = kHeight, .colour = colour, .depth = depth, .scene_colour = colour, .scene_depth = depth});
+        view.draw(camera, target);
     }
     const std::vector<std::uint8_t> rgb = view.read_picture();
     std::ofstream(arguments[3]) << "P6 " << kWidth << ' ' << kHeight << " 255\n" << std::string(rgb.begin(), rgb.end());

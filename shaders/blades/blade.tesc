@@ -49,8 +49,10 @@ void main() {
     float finer = surface_shape.x == float(kShapeDandelion) ? 3.0 : 1.0;
     float wanted = ceil(span * pixels / frame.segment_px);
     bool head = frame.looks[int(blade_in[0].ground.z)].outline.head_from < 1.0;
-    float along = surface_shape.x == kShapeOfSet ? clamp(wanted, head ? 8.0 : 2.0, 12.0)
-                                                 : surface_blade_level(ceil(finer * span * pixels / frame.segment_px), 24.0, surface_shape);
+    float along = surface_shape.x == kShapeOfSet
+                      ? clamp(wanted, head ? 8.0 : 2.0, 12.0)
+                      : surface_blade_level(ceil(finer * span * pixels / frame.segment_px), 24.0,
+                                            surface_shape);
 #else
     // A head has a curved rim of its own.
     float least = frame.looks[int(blade_in[0].ground.z)].outline.head_from < 1.0 ? 8.0 : 2.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a posed blade. Out: its surface (J8): outline, fold along the middle, pixel-width correction. SURFACE: a blade of a mesh.
+// In: a posed blade. Out: its surface (J8): outline, fold along the middle, pixel-width correction.
+// SURFACE: a blade of a mesh.
 #include "lib/frame.glsl"
 #include "shared/blade.h"
 #ifdef SURFACE
@@ -26,9 +27,9 @@ out vec3 world;
 out vec3 tangent;
 out vec2 sway;
 out vec3 normal;
-out vec2 along;       // place along the blade; rest height over the canopy's
-flat out vec4 own;    // rank, seed, distance for tier selection, cosine ground to sun
-flat out vec3 sort;    // tint of the ground, species, share of the simulated pose
+out vec2 along;     // place along the blade; rest height over the canopy's
+flat out vec4 own;  // rank, seed, distance for tier selection, cosine ground to sun
+flat out vec3 sort; // tint of the ground, species, share of the simulated pose
 out vec3 air_added;
 out vec3 air_through;
 
@@ -38,7 +39,8 @@ void main() {
     float level = gl_TessLevelOuter[0];
     bool of_set = surface_shape.x == kShapeOfSet;
     BladeOutline outline = frame.looks[int(blade_in[0].ground.z)].outline;
-    float v = of_set ? blade_station(gl_TessCoord.y, outline) : surface_blade_station(gl_TessCoord.y, surface_shape, level);
+    float v = of_set ? blade_station(gl_TessCoord.y, outline)
+                     : surface_blade_station(gl_TessCoord.y, surface_shape, level);
     vec3 t1 = blade_in[0].across.xyz;
     open_sky = blade_in[0].sway.z;
 #else
@@ -55,7 +57,8 @@ void main() {
     float pixels = 2.0 * half_width * frame.focal_px / max(distance(centre, frame.eye), 0.05);
     float phi = 1.0 - clamp((pixels - frame.width_least_px) / frame.width_span_px, 0.0, 1.0);
 #ifdef SURFACE
-    float t = of_set ? mix(blade_outline(u, v, outline), u, phi * phi) : surface_blade_outline(u, v, surface_shape, vec2(level, phi));
+    float t = of_set ? mix(blade_outline(u, v, outline), u, phi * phi)
+                     : surface_blade_outline(u, v, surface_shape, vec2(level, phi));
 #else
     float t = mix(blade_outline(u, v, outline), u, phi * phi);
 #endif

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw command.
-// SURFACE: an item is a cluster of a mesh's blades: the end of its run, its first blade.
+// In: chunks of tiles' blades. Out: each workgroup's survivors in its own segment, and its draw
+// command. SURFACE: an item is a cluster of a mesh's blades: the end of its run, its first blade.
 #include "lib/frame.glsl" // here: a file is expanded once, in whichever branch names it first
 #include "shared/bend.h"
 #include "shared/blade.h"
@@ -12,27 +12,42 @@
 #include "lib/occlusion.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
-layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
-layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
-layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = BIND_CULL_TOTAL) buffer Totals { uint totals[CULL_COUNTS]; };
+layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items {
+    uvec2 items[];
+};
+layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors {
+    uvec2 survivors[];
+};
+layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands {
+    DrawCommand commands[];
+};
+layout(std430, binding = BIND_CULL_TOTAL) buffer Totals {
+    uint totals[CULL_COUNTS];
+};
 uniform int first_item;
 uniform int tests; // bits 1 << CULL_*
 
 shared uint counts[CULL_COUNTS];
-shared uint kept_bits[CULL_GROUP / 32]; // a bit a lane: or-ing commutes, so the order is the lanes' in every run
+shared uint kept_bits[CULL_GROUP /
+                      32]; // a bit a lane: or-ing commutes, so the order is the lanes' in every run
 
 // J7 frustum test on the sphere around the blade; bent blades stay within their length of the root.
 bool in_view(vec3 root, float reach) {
     vec4 clip = frame.clip_from_world * vec4(root, 1.0);
-    vec2 slack = reach * vec2(length(vec3(frame.clip_from_world[0].x, frame.clip_from_world[1].x, frame.clip_from_world[2].x)),
-                              length(vec3(frame.clip_from_world[0].y, frame.clip_from_world[1].y, frame.clip_from_world[2].y)));
-    return clip.w > -reach && abs(clip.x) < clip.w + slack.x + reach && abs(clip.y) < clip.w + slack.y + reach;
+    vec2 slack = reach * vec2(length(vec3(frame.clip_from_world[0].x, frame.clip_from_world[1].x,
+                                          frame.clip_from_world[2].x)),
+                              length(vec3(frame.clip_from_world[0].y, frame.clip_from_world[1].y,
+                                          frame.clip_from_world[2].y)));
+    return clip.w > -reach && abs(clip.x) < clip.w + slack.x + reach &&
+           abs(clip.y) < clip.w + slack.y + reach;
 }
 
-bool tested(uint test) { return (tests & (1 << test)) != 0; }
+bool tested(uint test) {
+    return (tests & (1 << test)) != 0;
+}
 
-// J7: seen along its width a blade is its fold alone. The printed inequality is the wrong way round.
+// J7: seen along its width a blade is its fold alone. The printed inequality is the wrong way
+// round.
 bool edge_on(vec3 root, vec3 across) {
     return abs(dot(normalize(root - frame.eye), across)) > 0.9;
 }
@@ -46,13 +61,15 @@ uint verdict(uvec2 item, uint index) {
     SurfaceBlade blade = surface_blades[index];
     vec3 root = surface_root(blade);
     float reach = blade.v1_height.w;
-    if (!handover_may_be_near(surface_rank_seed(index).x, distance(root, frame.lod_eye), frame.handover_band, frame.handover_mode)) {
+    if (!handover_may_be_near(surface_rank_seed(index).x, distance(root, frame.lod_eye),
+                              frame.handover_band, frame.handover_mode)) {
         return uint(CULL_LEFT);
     }
     if (tested(CULL_FRUSTUM) && !in_view(root, reach)) {
         return uint(CULL_FRUSTUM);
     }
-    if (tested(CULL_ORIENTATION) && edge_on(root, surface_width_direction(blade.up_stiffness.xyz, blade.root_direction.w))) {
+    if (tested(CULL_ORIENTATION) &&
+        edge_on(root, surface_width_direction(blade.up_stiffness.xyz, blade.root_direction.w))) {
         return uint(CULL_ORIENTATION);
     }
     if (surface_width_share(index, root, blade.up_stiffness.xyz) <= 0.0) {
@@ -71,7 +88,8 @@ uint verdict(uvec2 item, uint index) {
     }
     BladeRecord blade = tile_blade(item.x, index);
     vec3 root = blade_root(item.x, blade);
-    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye), frame.handover_band, frame.handover_mode) ||
+    if (!handover_may_be_near(blade.root.z, distance(root, frame.lod_eye), frame.handover_band,
+                              frame.handover_mode) ||
         blade.root.w >= ground_surface(root.xz).density) {
         return uint(CULL_LEFT);
     }

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the masks that choose.comp made, a picture. Out: the picture's blades of each GATHER_ITEMS chunks in their order, and draw commands
-// of CULL_GROUP blades at most. One lane does all of that: sums over a workgroup cost more, in software by far.
+// In: the masks that choose.comp made, a picture. Out: the picture's blades of each GATHER_ITEMS
+// chunks in their order, and draw commands of CULL_GROUP blades at most. One lane does all of that:
+// sums over a workgroup cost more, in software by far.
 #include "shared/bindings.h"
 #include "shared/frame.h"
 
 layout(local_size_x = GATHER_GROUP) in;
-layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items { uvec2 items[]; };
-layout(std430, binding = BIND_GATHER_MASKS) readonly buffer GatherMasks { uint masks[]; };
-layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors { uvec2 survivors[]; };
-layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands { DrawCommand commands[]; };
+layout(std430, binding = BIND_CULL_ITEMS) readonly buffer Items {
+    uvec2 items[];
+};
+layout(std430, binding = BIND_GATHER_MASKS) readonly buffer GatherMasks {
+    uint masks[];
+};
+layout(std430, binding = BIND_SURVIVORS) writeonly buffer Survivors {
+    uvec2 survivors[];
+};
+layout(std430, binding = BIND_DRAW_COMMANDS) writeonly buffer Commands {
+    DrawCommand commands[];
+};
 uniform int first_item;
 uniform int end_item;
 uniform int first_mask; // item whose masks lie first
@@ -36,6 +45,7 @@ void main() {
     }
     for (int command = 0; command < end - begin; ++command) {
         int count = clamp(place - first - command * CULL_GROUP, 0, CULL_GROUP);
-        commands[lane * GATHER_ITEMS + command] = DrawCommand(uint(count), 1u, uint(first + command * CULL_GROUP), 0u);
+        commands[lane * GATHER_ITEMS + command] =
+            DrawCommand(uint(count), 1u, uint(first + command * CULL_GROUP), 0u);
     }
 }

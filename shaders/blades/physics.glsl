@@ -20,10 +20,18 @@ layout(std140, binding = BIND_PHYSICS) uniform PhysicsBlock {
 #else
 #define PhysicsRecord BladeRecord
 #endif
-layout(std430, binding = BIND_PHYSICS_BLADES) readonly buffer Records { PhysicsRecord records[]; };
-layout(std430, binding = BIND_PHYSICS_PAGES) readonly buffer Pages { BladePage pages[]; };
-layout(std430, binding = BIND_PHYSICS_PATCHES) buffer Patches { PatchState patches[]; };
-layout(std430, binding = BIND_PHYSICS_LISTS) readonly buffer Lists { uint sphere_lists[]; }; // first, count of each patch; then numbers
+layout(std430, binding = BIND_PHYSICS_BLADES) readonly buffer Records {
+    PhysicsRecord records[];
+};
+layout(std430, binding = BIND_PHYSICS_PAGES) readonly buffer Pages {
+    BladePage pages[];
+};
+layout(std430, binding = BIND_PHYSICS_PATCHES) buffer Patches {
+    PatchState patches[];
+};
+layout(std430, binding = BIND_PHYSICS_LISTS) readonly buffer Lists {
+    uint sphere_lists[];
+}; // first, count of each patch; then numbers
 
 uniform int patches_a_page;
 uniform int buffer_number; // of the records that are bound: BladePage::records
@@ -42,8 +50,8 @@ PhysicsRecord physics_laid(BladePage page, PhysicsRecord blade) {
 #endif
 }
 
-// Root of a blade of a page, anchor-relative. The root's height matters to colliders and to a centre of gravity alone: without `high` it
-// may be 0.
+// Root of a blade of a page, anchor-relative. The root's height matters to colliders and to a
+// centre of gravity alone: without `high` it may be 0.
 vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
 #ifdef SURFACE
     return page.origin + blade.root_direction.xyz;
@@ -53,13 +61,14 @@ vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
 #endif
 }
 
-// What bends living blades at a place: the wind, and where stems lie pressed what holds them there; from it one that wakes begins. What springs
-// back by itself they do by their own contacts.
+// What bends living blades at a place: the wind, and where stems lie pressed what holds them there;
+// from it one that wakes begins. What springs back by itself they do by their own contacts.
 vec2 physics_wind(vec2 xz) {
     vec2 wind = wind_of(step_wind, xz);
 #ifndef SURFACE
     if (has_tracks()) {
-        wind = sway_wind(wind, rules.response > 0.0 ? rules.response : frame.wind.response, vec2(0.0), sway_pressed(track_at(xz, 0.0)));
+        wind = sway_wind(wind, rules.response > 0.0 ? rules.response : frame.wind.response,
+                         vec2(0.0), sway_pressed(track_at(xz, 0.0)));
     }
 #endif
     return wind;

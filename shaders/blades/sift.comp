@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: blades that gather.comp listed for a picture, the picture as drawn so far. Out: of each command's blades those that a sample falls on which
-// shows nothing nearer. Batches come from near to far: of a far field all but a few blades stand behind others.
+// In: blades that gather.comp listed for a picture, the picture as drawn so far. Out: of each
+// command's blades those that a sample falls on which shows nothing nearer. Batches come from near
+// to far: of a far field all but a few blades stand behind others.
 #define BEFORE_SCENE
 #include "lib/blade_samples.glsl"
 
 layout(local_size_x = CULL_GROUP) in;
-layout(std430, binding = BIND_SURVIVORS) buffer Survivors { uvec2 survivors[]; };
-layout(std430, binding = BIND_DRAW_COMMANDS) buffer Commands { DrawCommand commands[]; };
-layout(std430, binding = BIND_CHOICE_TOTAL) buffer ChoiceTotals { uint totals[CULL_COUNTS]; };
+layout(std430, binding = BIND_SURVIVORS) buffer Survivors {
+    uvec2 survivors[];
+};
+layout(std430, binding = BIND_DRAW_COMMANDS) buffer Commands {
+    DrawCommand commands[];
+};
+layout(std430, binding = BIND_CHOICE_TOTAL) buffer ChoiceTotals {
+    uint totals[CULL_COUNTS];
+};
 
 shared uint kept_bits[CULL_GROUP / 32]; // a bit a lane, as in cull.comp
 

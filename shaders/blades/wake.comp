@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: all patches. Out: those that have something to do in this step, in three lists: one for each program of the physics pass and its
-// indirect dispatch.
+// In: all patches. Out: those that have something to do in this step, in three lists: one for each
+// program of the physics pass and its indirect dispatch.
 #include "blades/physics.glsl"
 
 layout(local_size_x = WAKE_GROUP) in;
-layout(std430, binding = BIND_PHYSICS_AWAKE) writeonly buffer Awake { AwakePatch awake[]; }; // patch_count a list
+layout(std430, binding = BIND_PHYSICS_AWAKE) writeonly buffer Awake {
+    AwakePatch awake[];
+}; // patch_count a list
 layout(std430, binding = BIND_PHYSICS_DISPATCH) buffer Dispatch {
     uvec4 dispatch[kPatchLists]; // groups of a list; 1, 1; unused
     uint stepped[kPatchLists];   // of all steps since the count began
@@ -31,16 +33,21 @@ void main() {
     } else if (state.status == kPatchAwake) {
         up = true;
     } else if (state.status == kPatchAsleep && !met) {
-        PhysicsRecord first = physics_laid(page, records[page.first + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
+        PhysicsRecord first = physics_laid(
+            page, records[page.first + int(patch_id % uint(patches_a_page)) * CULL_GROUP]);
         vec3 root = physics_root(page, first, false);
         up = distance(physics_wind(root.xz), state.wind) > kStillWind_mps;
     }
     if (up) {
-        uint list = state.status == kPatchNew ? kListNew : met || needs_height() ? kListColliding : kListFree;
+        uint list = state.status == kPatchNew ? kListNew
+                    : met || needs_height()   ? kListColliding
+                                              : kListFree;
         // The order varies from run to run; patches know nothing of each other.
-        awake[list * uint(patch_count) + atomicAdd(dispatch[list].x, 1u)] = AwakePatch(page, spheres, patch_id, state.status);
+        awake[list * uint(patch_count) + atomicAdd(dispatch[list].x, 1u)] =
+            AwakePatch(page, spheres, patch_id, state.status);
         atomicAdd(stepped[list], 1u);
-        // It comes to rest, unless a blade says that it moves: so no workgroup has to wait for its last one.
+        // It comes to rest, unless a blade says that it moves: so no workgroup has to wait for its
+        // last one.
         patches[patch_id].status = met ? kPatchAwake : kPatchAsleep;
         patches[patch_id].steps = state.status == kPatchNew ? 0u : state.steps + 1u;
     }

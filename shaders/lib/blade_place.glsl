@@ -3,8 +3,12 @@
 #include "lib/ground.glsl"
 #include "shared/tile_lie.h"
 
-layout(std430, binding = BIND_BLADES) readonly buffer Blades { BladeRecord blades[]; };
-layout(std430, binding = BIND_BLADE_TILES) readonly buffer Tiles { BladeTile tiles[]; };
+layout(std430, binding = BIND_BLADES) readonly buffer Blades {
+    BladeRecord blades[];
+};
+layout(std430, binding = BIND_BLADE_TILES) readonly buffer Tiles {
+    BladeTile tiles[];
+};
 
 // A blade of the set as it lies on a tile.
 BladeRecord tile_blade(uint tile, uint index) {

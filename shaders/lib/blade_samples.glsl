@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which samples of the reference's jittered pictures may fall on a blade: the test holds all that the tessellator makes of it.
-// BEFORE_SCENE: in one picture, and of the samples only those that show nothing nearer yet.
+// Which samples of the reference's jittered pictures may fall on a blade: the test holds all that
+// the tessellator makes of it. BEFORE_SCENE: in one picture, and of the samples only those that
+// show nothing nearer yet.
 #include "lib/blade_pose.glsl"
 #include "shared/sample_places.h"
 
@@ -10,25 +11,36 @@ layout(std140, binding = BIND_SAMPLES) uniform SampleBlock {
 #ifdef BEFORE_SCENE
 layout(binding = TEX_RESOLVE_DEPTH) uniform sampler2DMS scene_depth;
 float nearest_depth = 0.0; // of the blade in the test
-int pictures() { return 1; } // its own constants hold what it is moved by, and the round's first one is moved by nothing
+int pictures() {
+    return 1;
+} // its own constants hold what it is moved by, and the round's first one is moved by nothing
 #else
-int pictures() { return round.counts.x; }
+int pictures() {
+    return round.counts.x;
+}
 #endif
 
-const float kSnap_px = 1.0 / 480.0; // rasterisers put vertices on a grid of 1/256 pixel: half of it away, and what rounding adds
+const float kSnap_px = 1.0 / 480.0; // rasterisers put vertices on a grid of 1/256 pixel: half of it
+                                    // away, and what rounding adds
 
-// A piece of blade in the picture: all of it lies within `radius`, to the sides and up and down, of the line from a to b (pixels).
+// A piece of blade in the picture: all of it lies within `radius`, to the sides and up and down, of
+// the line from a to b (pixels).
 struct Capsule {
     vec2 a;
     vec2 b;
     vec2 radius;
 };
 
-uint all_pictures() { return (1u << pictures()) - 1u; }
+uint all_pictures() {
+    return (1u << pictures()) - 1u;
+}
 
-vec2 pixel_of(vec4 clip) { return (0.5 + 0.5 * clip.xy / clip.w) * vec2(frame.picture_px); }
+vec2 pixel_of(vec4 clip) {
+    return (0.5 + 0.5 * clip.xy / clip.w) * vec2(frame.picture_px);
+}
 
-// Could a sample at `place` of some pixel lie in it, number `s` of its pixel? Row by row: where a row of samples crosses it, is there a column's?
+// Could a sample at `place` of some pixel lie in it, number `s` of its pixel? Row by row: where a
+// row of samples crosses it, is there a column's?
 bool falls_on(Capsule piece, vec2 place, int s) {
     vec2 low = min(piece.a, piece.b) - piece.radius;
     vec2 high = max(piece.a, piece.b) + piece.radius;
@@ -78,24 +90,28 @@ uint pictures_of(Capsule piece, uint mask) {
     return mask;
 }
 
-// Greatest distance of the blade's surface from its middle line between two stations, over its half width.
+// Greatest distance of the blade's surface from its middle line between two stations, over its half
+// width.
 float reach_of(float from, float to, BladeOutline outline) {
     float stalk = outline.stalk * (1.0 - pow(from, outline.taper));
     float head = outline.head_from < 1.0 && to > outline.head_from ? 1.0 : 0.0;
     return max(max(stalk, head), 0.5 * (1.0 - from)); // the fold stands out by the last
 }
 
-// How far it takes a point to the sides, up or down to move it by `way` or by its opposite (pixels).
+// How far it takes a point to the sides, up or down to move it by `way` or by its opposite
+// (pixels).
 vec2 extent(vec4 clip, vec3 way) {
     vec4 moved = frame.clip_from_world * vec4(way, 0.0);
-    return abs(moved.xy - clip.xy / clip.w * moved.w) / (clip.w - abs(moved.w)) * 0.5 * vec2(frame.picture_px);
+    return abs(moved.xy - clip.xy / clip.w * moved.w) / (clip.w - abs(moved.w)) * 0.5 *
+           vec2(frame.picture_px);
 }
 
 // Of a blade's rims and of its fold at a station, whose vertices these are.
 vec2 station_extent(vec4 clip, float v, float width, BladePose pose, BladeOutline outline) {
     vec3 across = blade_width_direction(pose.facing);
     vec3 normal = normalize(cross(blade_tangent(pose.v1, pose.v2, v), across));
-    return max(extent(clip, across * (width * blade_width_at(v, outline))), extent(clip, normal * (width * 0.5 * (1.0 - v))));
+    return max(extent(clip, across * (width * blade_width_at(v, outline))),
+               extent(clip, normal * (width * 0.5 * (1.0 - v))));
 }
 
 // The pictures that a sample of may fall on the blade as blade.tesc and blade.tese draw it.
@@ -109,16 +125,19 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
     float pixels = frame.focal_px / max(distance(pose.root, frame.eye), 0.05);
     float wanted = (length(pose.v1) + length(pose.v2 - pose.v1)) * pixels / frame.segment_px;
     bool head = outline.head_from < 1.0;
-    bool unsure = wanted > 7.99 || (!head && wanted > 1.5 && abs(fract(wanted) - 0.5) > 0.49); // how many segments rounding makes
+    bool unsure =
+        wanted > 7.99 || (!head && wanted > 1.5 &&
+                          abs(fract(wanted) - 0.5) > 0.49); // how many segments rounding makes
     if (nearest < 2.0 * frame.near_m || unsure) {
         return all_pictures(); // clipped, or long: not worth the trouble
     }
 #ifdef BEFORE_SCENE
-    // Rasterisers extend the depth of a sliver over what its ends were moved by: more than a quarter of a pixel's width makes of that is not shown.
+    // Rasterisers extend the depth of a sliver over what its ends were moved by: more than a
+    // quarter of a pixel's width makes of that is not shown.
     nearest_depth = frame.near_m / (nearest - 0.25 * root.w / frame.focal_px);
 #endif
-    // The segments' own ends, or of a head's eight every other: both those and ours lie within a quarter of the bulge times the square of our
-    // step from the curve.
+    // The segments' own ends, or of a head's eight every other: both those and ours lie within a
+    // quarter of the bulge times the square of our step from the curve.
     int pieces = head ? 4 : max(int(ceil(wanted)), 2);
     float bulge = head ? 0.5 * length(pose.v2 - 2.0 * pose.v1) : 0.0;
     uint mask = 0u;
@@ -131,8 +150,11 @@ uint pictures_with(BladeRecord blade, BladePose pose) {
         vec4 next = root + 2.0 * v * (1.0 - v) * clip1 + v * v * clip2;
         vec2 next_place = pixel_of(next);
         float radius = width * reach_of(before, v, outline) + bulge * (v - before) * (v - before);
-        vec2 aside = max(abs(place - 0.5 * vec2(frame.picture_px)), abs(next_place - 0.5 * vec2(frame.picture_px))) / frame.focal_px;
-        float per_metre = frame.focal_px * sqrt(1.0 + dot(aside, aside)) / max(min(clip.w, next.w) - radius, frame.near_m);
+        vec2 aside = max(abs(place - 0.5 * vec2(frame.picture_px)),
+                         abs(next_place - 0.5 * vec2(frame.picture_px))) /
+                     frame.focal_px;
+        float per_metre = frame.focal_px * sqrt(1.0 + dot(aside, aside)) /
+                          max(min(clip.w, next.w) - radius, frame.near_m);
         vec2 next_ahead = station_extent(next, v, width, pose, outline);
         vec2 reach = head ? vec2(radius * per_metre) : max(ahead, next_ahead);
         mask = pictures_of(Capsule(place, next_place, reach + kSnap_px), mask);

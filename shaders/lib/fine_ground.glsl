@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground through a long lens: past the blades, levels are finer than the clipmap holds there, and are read from the posts.
-// For programs with FINE_GROUND; lib/ground.glsl includes it.
+// The ground through a long lens: past the blades, levels are finer than the clipmap holds there,
+// and are read from the posts. For programs with FINE_GROUND; lib/ground.glsl includes it.
 #include "lib/posts.glsl"
 
-// World place (anchor-relative) to a true one. Posts of a level are whole numbers of half metres: exact in floats.
+// World place (anchor-relative) to a true one. Posts of a level are whole numbers of half metres:
+// exact in floats.
 vec2 true_place(vec2 xz) {
     return xz + params.anchor;
 }
@@ -35,7 +36,8 @@ float level_height(vec2 xz, int level) {
     return sum;
 }
 
-// World y at a vertex of a block: as with the clipmap, wholly of the next level where blocks of that level begin, so that no seam cracks.
+// World y at a vertex of a block: as with the clipmap, wholly of the next level where blocks of
+// that level begin, so that no seam cracks.
 float fine_vertex(vec2 xz, ClipPlace place) {
     float fine = level_height(xz, place.level);
     float coarse = place.blend > 0.0 ? level_height(xz, place.level + 1) : fine;
@@ -51,8 +53,11 @@ float fine_height(vec2 xz, ClipPlace place) {
 vec4 fine_surface(vec2 xz, ClipPlace place) {
     float step_m = fine_spacing(place);
     vec2 at = true_place(xz);
-    vec2 slope = vec2(surface_height(at + vec2(step_m, 0.0), step_m) - surface_height(at - vec2(step_m, 0.0), step_m),
-                      surface_height(at + vec2(0.0, step_m), step_m) - surface_height(at - vec2(0.0, step_m), step_m)) / (2.0 * step_m);
+    vec2 slope = vec2(surface_height(at + vec2(step_m, 0.0), step_m) -
+                          surface_height(at - vec2(step_m, 0.0), step_m),
+                      surface_height(at + vec2(0.0, step_m), step_m) -
+                          surface_height(at - vec2(0.0, step_m), step_m)) /
+                 (2.0 * step_m);
     vec3 normal = normalize(vec3(-slope.x, 1.0, -slope.y));
     return vec4(normal.xz, slope_density(normal, at), surface_tint(at, step_m));
 }

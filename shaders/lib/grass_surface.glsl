@@ -27,12 +27,15 @@ void write_grass(GrassSample s) {
     vec3 from_eye = s.world - frame.eye;
     float distance_m = length(from_eye);
     vec3 to_eye = -from_eye / distance_m;
-    vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along, colour_detail(frame.blade_width_m * frame.focal_px / distance_m)) * sward_tint(s.tint);
+    vec3 albedo = blade_albedo(frame.looks[s.species], vec2(s.rank, s.seed), s.along,
+                               colour_detail(frame.blade_width_m * frame.focal_px / distance_m)) *
+                  sward_tint(s.tint);
     GrassPoint point = GrassPoint(albedo, s.tangent, s.height, s.slope);
     Light light = light_in_sway(frame.light, sway);
 #ifdef SURFACE
     light = light_under(light, open_sky);
 #endif
-    vec3 radiance = shade_grass(frame.looks[s.species], light, point, to_eye) * s.air.through + s.air.added;
+    vec3 radiance =
+        shade_grass(frame.looks[s.species], light, point, to_eye) * s.air.through + s.air.added;
     write_surface(radiance, vec3(s.tier, 1.0, s.rank), s.tangent, s.normal);
 }

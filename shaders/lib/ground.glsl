@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground as every tier sees it: the clipmap, blended between levels so that nothing cracks or pops. World xz in.
+// The ground as every tier sees it: the clipmap, blended between levels so that nothing cracks or
+// pops. World xz in.
 #include "lib/frame.glsl"
 #ifdef FINE_GROUND
 #include "lib/posts.glsl"
@@ -10,7 +11,8 @@ layout(binding = TEX_CLIP_SURFACE) uniform sampler2DArray clip_surface;
 layout(binding = TEX_MASK) uniform sampler2D mask;
 #include "lib/land.glsl"
 
-// A level is whole out to 56 cells from the eye (its window moves in steps of 16); it dissolves into the next before that.
+// A level is whole out to 56 cells from the eye (its window moves in steps of 16); it dissolves
+// into the next before that.
 const float kBlendStart = 40.0;
 const float kBlendEnd = 54.0;
 
@@ -29,7 +31,8 @@ ClipPlace clip_place(vec2 xz) {
     int last = frame.clip_levels - 1;
     int level = int(clamp(ceil(log2(max(cells / kBlendEnd, 1e-3))), 0.0, float(last)));
     float own = cells / float(1 << level);
-    float blend = level == last ? 0.0 : clamp((own - kBlendStart) / (kBlendEnd - kBlendStart), 0.0, 1.0);
+    float blend =
+        level == last ? 0.0 : clamp((own - kBlendStart) / (kBlendEnd - kBlendStart), 0.0, 1.0);
     return ClipPlace(level, blend);
 }
 
@@ -51,7 +54,8 @@ float ground_at(vec2 xz) {
     }
 #endif
     float fine = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r;
-    float coarse = textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0).r;
+    float coarse =
+        textureLod(clip_height, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0).r;
     return mix(fine, coarse, place.blend) - frame.anchor_height_m;
 }
 
@@ -61,8 +65,8 @@ struct Ground {
     float tint;    // slow variation of soil and sward, 0..1
 };
 
-// Density by the scene's mask, as the mean over `width` metres: not through the clipmap, whose posts far away are wider than the
-// roads that a mask shows.
+// Density by the scene's mask, as the mean over `width` metres: not through the clipmap, whose
+// posts far away are wider than the roads that a mask shows.
 float mask_density(vec2 xz, float width) {
     vec2 uv = mask_uv(xz);
     if (off_mask(uv)) {
@@ -78,7 +82,8 @@ float mask_density(vec2 xz, float width) {
 Ground ground_surface(vec2 xz, float width) {
     ClipPlace place = clip_place(xz);
     vec4 fine = textureLod(clip_surface, clip_uv(xz, place.level), 0.0);
-    vec4 coarse = textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0);
+    vec4 coarse =
+        textureLod(clip_surface, clip_uv(xz, min(place.level + 1, frame.clip_levels - 1)), 0.0);
     vec4 s = mix(fine, coarse, place.blend);
     vec2 n = (s.xy * 255.0 - 128.0) / 127.0;
     float density = s.z;
@@ -90,12 +95,14 @@ Ground ground_surface(vec2 xz, float width) {
     }
 #endif
     if (frame.mask_mode != kMaskNone) {
-        float height = textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.anchor_height_m;
+        float height =
+            textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.anchor_height_m;
         float pixel = distance(vec3(xz.x, height, xz.y), frame.eye) / frame.focal_px;
         density = mask_density(xz, max(width, pixel));
         s.w += has_land() ? land_dryness(xz, max(width, pixel)) : 0.0;
     }
-    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.density_scale, s.w);
+    return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.density_scale,
+                  s.w);
 }
 
 Ground ground_surface(vec2 xz) {

@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// A landcover's classes as every tier sees them (docs/far-field.md): at once by the size of what is looked at. World xz in.
+// A landcover's classes as every tier sees them (docs/far-field.md): at once by the size of what is
+// looked at. World xz in.
 //
-// Texels hold shares. Near the eye a border runs where a share passes a level that noise moves to and fro: crisp, ragged, never in the texels' squares.
-// What is wider than a texel shows the shares themselves, whose mean that is.
+// Texels hold shares. Near the eye a border runs where a share passes a level that noise moves to
+// and fro: crisp, ragged, never in the texels' squares. What is wider than a texel shows the shares
+// themselves, whose mean that is.
 #include "shared/sward.h"
 
 layout(binding = TEX_LAND_COVER) uniform sampler2D land_cover;
 layout(binding = TEX_LAND_GROUND) uniform sampler2D land_ground;
 
-const float kMostHeight = 2.0;    // scene::kLandMostHeight
-const float kEdgeRagged = 0.35;   // of an octave's cells
-const float kAllOrNone = 0.004;   // a byte
+const float kMostHeight = 2.0;  // scene::kLandMostHeight
+const float kEdgeRagged = 0.35; // of an octave's cells
+const float kAllOrNone = 0.004; // a byte
 
-// NO_LAND: in the longest programs of scenes without one, which are spared its code. A mesh never has one.
+// NO_LAND: in the longest programs of scenes without one, which are spared its code. A mesh never
+// has one.
 #if defined(NO_LAND) || defined(SURFACE)
 const bool kMayHaveLand = false;
 #else
@@ -46,7 +49,9 @@ struct LandEdge {
 // How far an octave of noise moves a border (m).
 float edge_aside(vec2 xz, float size, float width, uint salt) {
     float share = octave_share(size, width);
-    return share <= 0.0 ? 0.0 : kEdgeRagged * size * share * cell_noise(xz, ivec2(frame.anchor_x, frame.anchor_z), size, salt);
+    return share <= 0.0 ? 0.0
+                        : kEdgeRagged * size * share *
+                              cell_noise(xz, ivec2(frame.anchor_x, frame.anchor_z), size, salt);
 }
 
 // LAND_SMOOTH: without the noise, whose mean is 0; of the march, which asks at every step.
@@ -59,8 +64,9 @@ LandEdge land_edge(vec2 xz, float width) {
         return LandEdge(0.5, soft);
     }
     // From 1 m down to 6 cm; no loop, of which terrain.frag has enough.
-    float aside = edge_aside(xz, 1.0, width, 0x1a4du) + edge_aside(xz, 0.5, width, 0x1a4eu) + edge_aside(xz, 0.25, width, 0x1a4fu) +
-                  edge_aside(xz, 0.125, width, 0x1a50u) + edge_aside(xz, 0.0625, width, 0x1a51u);
+    float aside = edge_aside(xz, 1.0, width, 0x1a4du) + edge_aside(xz, 0.5, width, 0x1a4eu) +
+                  edge_aside(xz, 0.25, width, 0x1a4fu) + edge_aside(xz, 0.125, width, 0x1a50u) +
+                  edge_aside(xz, 0.0625, width, 0x1a51u);
     float most = 0.8 * (0.5 - soft); // so that all is all, and none none
     return LandEdge(0.5 + clamp(aside / frame.land_texel_m, -most, most), soft);
 #endif
@@ -92,7 +98,8 @@ float land_height(vec2 xz, float width) {
     float lod = land_lod(width);
     float bearing = 1.0 - textureLod(land_ground, uv, lod).a;
     float height = textureLod(land_cover, uv, lod).r;
-    return bearing <= kAllOrNone ? 1.0 : clamp(kMostHeight * height / bearing, 0.1, frame.land_highest);
+    return bearing <= kAllOrNone ? 1.0
+                                 : clamp(kMostHeight * height / bearing, 0.1, frame.land_highest);
 }
 
 float land_dryness(vec2 xz, float width) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a landcover's grounds look like, from a centimetre up to ten metres; from afar their mean. All noise has the mean 0.
-// Needs lib/ground.glsl.
+// What a landcover's grounds look like, from a centimetre up to ten metres; from afar their mean.
+// All noise has the mean 0. Needs lib/ground.glsl.
 
 // Shares of what lies here, sharp near the eye; what is left is soil.
 struct Grounds {
@@ -27,10 +27,11 @@ Grounds grounds_at(vec2 xz, float width) {
     return Grounds(a, b - a, c - b, d - c, beyond_edge(all, edge) - d);
 }
 
-// How one of them looks. One loop over the grounds draws them all: each loop more makes compilers of software rasterisers slower than the last.
+// How one of them looks. One loop over the grounds draws them all: each loop more makes compilers
+// of software rasterisers slower than the last.
 struct GroundLook {
     vec3 colour;
-    float wide;     // widest cells of its noise (m)
+    float wide; // widest cells of its noise (m)
     int octaves;
     float weight;   // of each over the one before
     float strength; // of the noise
@@ -70,7 +71,8 @@ float noise_from(vec2 xz, GroundLook look, float width, uint salt) {
     return sum;
 }
 
-// Stones of about `size` metres: x their own brightness, -1..1; y how far a place is from the middle of its stone, less its mean. Mean 0.
+// Stones of about `size` metres: x their own brightness, -1..1; y how far a place is from the
+// middle of its stone, less its mean. Mean 0.
 vec2 stones_at(vec2 xz, float size, uint salt, float width) {
     float share = octave_share(2.0 * size, width);
     if (share <= 0.0) {
@@ -102,11 +104,14 @@ float ground_marks(int ground, vec2 xz, float width) {
         return 0.0;
     }
     if (ground == 2) {
-        return 0.35 * octave_share(0.0625, width) * stretched_noise(xz, anchor, vec2(0.5, 0.0625), 0x5a20u);
+        return 0.35 * octave_share(0.0625, width) *
+               stretched_noise(xz, anchor, vec2(0.5, 0.0625), 0x5a20u);
     }
-    float way = cell_noise(xz, anchor, ground == 0 ? 2.0 : 0.5, 0xa520u) + 0.1 * cell_noise(xz, anchor, 0.25, 0xa521u);
+    float way = cell_noise(xz, anchor, ground == 0 ? 2.0 : 0.5, 0xa520u) +
+                0.1 * cell_noise(xz, anchor, 0.25, 0xa521u);
     float wide = ground == 0 ? 0.012 : 0.06; // cracks are a ridge's line
-    return octave_share(0.125, width) * (ground == 0 ? 0.5 : 0.25) * (3.0 * wide - 1.0 + smoothstep(0.0, wide, abs(way)));
+    return octave_share(0.125, width) * (ground == 0 ? 0.5 : 0.25) *
+           (3.0 * wide - 1.0 + smoothstep(0.0, wide, abs(way)));
 }
 
 // Reflectance of the ground where `soil` is that of the class's soil.
@@ -118,27 +123,32 @@ vec3 ground_colour(vec3 soil, Grounds grounds, vec2 xz, float tint, float width)
             GroundLook look = look_of(ground, tint);
             uint salt = 0xa510u + 0x1000u * uint(ground);
             vec2 stones = stones_at(xz, look.stone, salt + 0x100u, width);
-            float value = 1.0 + look.strength * noise_from(xz, look, width, salt) + look.own * stones.x - look.rim * stones.y + ground_marks(ground, xz, width);
+            float value = 1.0 + look.strength * noise_from(xz, look, width, salt) +
+                          look.own * stones.x - look.rim * stones.y +
+                          ground_marks(ground, xz, width);
             colour += shares[ground] * look.colour * max(value, 0.2);
         }
     }
     return colour / max(1.0 - grounds.water, 1e-3);
 }
 
-// Radiance of still water, level whatever the ground is, toward the eye: the sky by Fresnel (Schlick, 2 percent), and what its depth gives back.
+// Radiance of still water, level whatever the ground is, toward the eye: the sky by Fresnel
+// (Schlick, 2 percent), and what its depth gives back.
 vec3 water_radiance(vec2 xz, vec3 to_eye, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     vec2 slope = vec2(0.0);
     for (int i = 0; i < 5; ++i) {
         float size = 2.0 * exp2(-float(i));
         float share = octave_share(size, width) * (1.0 - 0.12 * float(i));
-        slope += share * vec2(cell_noise(xz, anchor, size, 0x3a7au + uint(i)), cell_noise(xz, anchor, size, 0x3b7au + uint(i)));
+        slope += share * vec2(cell_noise(xz, anchor, size, 0x3a7au + uint(i)),
+                              cell_noise(xz, anchor, size, 0x3b7au + uint(i)));
     }
     vec3 normal = normalize(vec3(0.045 * slope.x, 1.0, 0.045 * slope.y));
     vec3 mirrored = reflect(-to_eye, normal);
     mirrored.y = abs(mirrored.y); // ripples that would mirror the bank
     float grazing = 1.0 - max(dot(normal, to_eye), 0.0);
     float fresnel = 0.02 + 0.98 * grazing * grazing * grazing * grazing * grazing;
-    vec3 deep = vec3(0.012, 0.022, 0.018) * (frame.light.sun.rgb * max(frame.light.to_sun.y, 0.0) + even_sky(frame.light));
+    vec3 deep = vec3(0.012, 0.022, 0.018) *
+                (frame.light.sun.rgb * max(frame.light.to_sun.y, 0.0) + even_sky(frame.light));
     return mix(deep, sky_radiance(mirrored), fresnel);
 }

@@ -4,7 +4,9 @@
 #include "shared/frame.h"
 #include "shared/surface.h"
 
-layout(std140, binding = BIND_SURFACE) uniform SurfaceBlock { SurfaceParams params; };
+layout(std140, binding = BIND_SURFACE) uniform SurfaceBlock {
+    SurfaceParams params;
+};
 layout(binding = TEX_ELEVATION) uniform sampler2D elevation;
 
 float post(ivec2 at) {
@@ -20,8 +22,9 @@ float surface_height(vec2 xz, float spacing) {
     ivec2 first = ivec2(base) - 1;
     vec4 rows;
     for (int j = 0; j < 4; ++j) {
-        rows[j] = catmull_rom(vec4(post(first + ivec2(0, j)), post(first + ivec2(1, j)), post(first + ivec2(2, j)),
-                                   post(first + ivec2(3, j))), f.x);
+        rows[j] = catmull_rom(vec4(post(first + ivec2(0, j)), post(first + ivec2(1, j)),
+                                   post(first + ivec2(2, j)), post(first + ivec2(3, j))),
+                              f.x);
     }
     return catmull_rom(rows, f.y) + relief_at(xz, params.relief_m, spacing);
 }

@@ -12,7 +12,8 @@ layout(location = OUT_TANGENT) out vec4 out_tangent;
 layout(location = OUT_NORMAL) out vec4 out_normal;
 #endif
 layout(location = OUT_COLOR) out vec4 out_color;
-layout(location = OUT_DATA) out vec4 out_data; // depth along the view axis (m, 0 at infinity), tier, rank
+layout(location =
+           OUT_DATA) out vec4 out_data; // depth along the view axis (m, 0 at infinity), tier, rank
 uniform int samples;
 
 // Distance along the view axis, from reversed depth.

@@ -7,9 +7,9 @@
 
 // What every tier bends by.
 struct Sway {
-    vec2 wind;      // that would bend it as wind and track do (m/s)
-    vec2 pressed;   // stems that lie: along which way, how many of them; of a footprint the mean
-    float lying;    // share of stems that lie, whichever way
+    vec2 wind;     // that would bend it as wind and track do (m/s)
+    vec2 pressed;  // stems that lie: along which way, how many of them; of a footprint the mean
+    float lying;   // share of stems that lie, whichever way
     float aligned; // how much of the bend's way is left in the mean over a footprint; 1 of a blade
 };
 
@@ -21,12 +21,14 @@ Sway sway_at(vec2 xz) {
     }
     TrackSeen track = track_at(xz, 0.0);
     vec2 pressed = sway_pressed(track);
-    return Sway(sway_wind(wind, frame.wind.response, track.theta, pressed), pressed, track.lying, 1.0);
+    return Sway(sway_wind(wind, frame.wind.response, track.theta, pressed), pressed, track.lying,
+                1.0);
 }
 
 // What bends its tip, whose bend comes from farther ahead (C3).
 vec2 sway_tip(vec2 xz, Sway root, vec2 ahead) {
-    return sway_wind(wind_at(xz), frame.wind.response, track_at(xz + ahead, 0.0).theta, root.pressed);
+    return sway_wind(wind_at(xz), frame.wind.response, track_at(xz + ahead, 0.0).theta,
+                     root.pressed);
 }
 
 // A footprint's, from the wind there.
@@ -35,8 +37,8 @@ Sway sway_of(vec2 wind, TrackSeen track) {
     return Sway(mean.wind, track.pressed, track.lying, mean.aligned);
 }
 
-// canopy_sway for the set's first species, sun and eye, its sunlight less what the land hides; x, z of where the bend turns an upright
-// blade at kLeanHeight.
+// canopy_sway for the set's first species, sun and eye, its sunlight less what the land hides; x, z
+// of where the bend turns an upright blade at kLeanHeight.
 vec4 sway_at(vec3 ground, vec2 wind) {
     float canopy = frame.canopy_m;
     vec3 to_eye = normalize(frame.eye - ground - vec3(0.0, kSwayHeight * canopy, 0.0));
@@ -60,12 +62,14 @@ vec4 sway_at(vec3 ground, Sway sway) {
 vec4 sway_over(vec3 ground, vec2 wind, TrackSeen track) {
     vec4 light = vec4(0.0);
     if (sway_is_even(track)) {
-        light = sway_at(ground, sway_wind(wind, frame.wind.response, track.theta, sway_pressed(track)));
+        light =
+            sway_at(ground, sway_wind(wind, frame.wind.response, track.theta, sway_pressed(track)));
     } else {
         for (int n = 0; n < kSwayWays; ++n) {
             vec3 way = sway_way(track, n);
             if (way.z > 0.01) {
-                light += way.z * sway_at(ground, sway_wind(wind, frame.wind.response, track.theta, way.xy * track.lying));
+                light += way.z * sway_at(ground, sway_wind(wind, frame.wind.response, track.theta,
+                                                           way.xy * track.lying));
             }
         }
     }

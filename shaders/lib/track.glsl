@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only way any shader learns of tracks. Anchor-relative xz in; what bends and lies there out (shared/track_seen.h).
+// The only way any shader learns of tracks. Anchor-relative xz in; what bends and lies there out
+// (shared/track_seen.h).
 #include "lib/frame.glsl"
 #include "shared/bindings.h"
 #include "shared/track_seen.h"
@@ -28,14 +29,18 @@ ivec2 track_slot(ivec2 page) {
 // A cell's texel in the pool of what moves; -1: at rest.
 int track_moving(int slot, ivec2 cell) {
     int block = track_block_of(cell);
-    int place = texelFetch(track_table, frame.tracks.table_mask + 1 + slot * (kTrackBlocks / 4) + block / 4)[block % 4];
+    int place = texelFetch(track_table, frame.tracks.table_mask + 1 + slot * (kTrackBlocks / 4) +
+                                            block / 4)[block % 4];
     return place < 0 ? -1 : place * kTrackBlock * kTrackBlock + track_in_block(cell);
 }
 
 TrackSeen track_cell(ivec2 slot, ivec2 cell) {
     int moving = slot.y != 0 ? track_moving(slot.x, cell) : -1;
     vec2 theta = moving < 0 ? vec2(0.0) : texelFetch(track_bends, moving).xy;
-    return track_seen(theta, track_unpack(texelFetch(track_shown, slot.x * kTrackWords + cell.y * kTrackCells + cell.x).x));
+    return track_seen(
+        theta,
+        track_unpack(
+            texelFetch(track_shown, slot.x * kTrackWords + cell.y * kTrackCells + cell.x).x));
 }
 
 // A cell of a level, counted from the anchor page's north-west corner.
@@ -54,7 +59,8 @@ TrackSeen track_texel(ivec2 cell, int level, inout ivec2 page, inout ivec2 slot)
         return track_cell(slot, within);
     }
     int at = slot.x * kTrackWords + track_level_first(level) + 2 * (within.y * side + within.x);
-    return track_unpack_seen(uvec2(texelFetch(track_shown, at).x, texelFetch(track_shown, at + 1).x));
+    return track_unpack_seen(
+        uvec2(texelFetch(track_shown, at).x, texelFetch(track_shown, at + 1).x));
 }
 
 TrackSeen track_of_level(vec2 xz, int level) {
@@ -64,15 +70,18 @@ TrackSeen track_of_level(vec2 xz, int level) {
     ivec2 cell = ivec2(low);
     ivec2 page = ivec2(-1000000);
     ivec2 slot = ivec2(-1, 0);
-    TrackSeen north = track_mean(track_texel(cell, level, page, slot), track_texel(cell + ivec2(1, 0), level, page, slot), part.x);
-    TrackSeen south = track_mean(track_texel(cell + ivec2(0, 1), level, page, slot), track_texel(cell + ivec2(1, 1), level, page, slot), part.x);
+    TrackSeen north = track_mean(track_texel(cell, level, page, slot),
+                                 track_texel(cell + ivec2(1, 0), level, page, slot), part.x);
+    TrackSeen south = track_mean(track_texel(cell + ivec2(0, 1), level, page, slot),
+                                 track_texel(cell + ivec2(1, 1), level, page, slot), part.x);
     return track_mean(north, south, part.y);
 }
 
 bool track_within(vec2 xz, float beyond) {
     vec2 least = frame.tracks.least;
     vec2 most = frame.tracks.most;
-    return has_tracks() && xz.x >= least.x - beyond && xz.y >= least.y - beyond && xz.x <= most.x + beyond && xz.y <= most.y + beyond;
+    return has_tracks() && xz.x >= least.x - beyond && xz.y >= least.y - beyond &&
+           xz.x <= most.x + beyond && xz.y <= most.y + beyond;
 }
 
 // What is seen over `width` metres around a place.
@@ -84,7 +93,8 @@ TrackSeen track_at(vec2 xz, float width) {
     int fine = int(level);
     TrackSeen found = track_of_level(xz, fine);
     if (level > float(fine)) {
-        found = track_mean(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)), level - float(fine));
+        found = track_mean(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)),
+                           level - float(fine));
     }
     float left = frame.tracks.left;
     found.pressed *= left;
@@ -93,8 +103,8 @@ TrackSeen track_at(vec2 xz, float width) {
     return found;
 }
 
-// C3: how far ahead a part of the stem (`share`, 0 root .. 1 tip) has its bend from; nothing where all is at rest, or seen so coarsely that it is less
-// than a cell.
+// C3: how far ahead a part of the stem (`share`, 0 root .. 1 tip) has its bend from; nothing where
+// all is at rest, or seen so coarsely that it is less than a cell.
 vec2 track_ahead(vec2 xz, float width, float share) {
     if (width * frame.tracks.per_m > 2.0 || !track_within(xz, 0.0)) {
         return vec2(0.0);
@@ -110,10 +120,12 @@ vec2 track_ahead(vec2 xz, float width, float share) {
         return vec2(0.0);
     }
     vec4 bend = texelFetch(track_bends, at);
-    return track_delay(bend.xy, bend.zw, share, vec2(frame.tracks.wave_mps, frame.tracks.wave_gain_m));
+    return track_delay(bend.xy, bend.zw, share,
+                       vec2(frame.tracks.wave_mps, frame.tracks.wave_gain_m));
 }
 
-// Of a footprint that is longer than wide, as that of a ray low over the ground: `along`, its length, one way.
+// Of a footprint that is longer than wide, as that of a ray low over the ground: `along`, its
+// length, one way.
 const int kTrackTaps = 6;
 TrackSeen track_along(vec2 xz, float width, vec2 along) {
     float run = length(along);
@@ -123,7 +135,8 @@ TrackSeen track_along(vec2 xz, float width, vec2 along) {
     }
     TrackSeen found = track_nothing();
     for (int n = 0; n < taps; ++n) {
-        TrackSeen one = track_at(xz + along * ((float(n) + 0.5) / float(taps) - 0.5), max(width, run / float(taps)));
+        TrackSeen one = track_at(xz + along * ((float(n) + 0.5) / float(taps) - 0.5),
+                                 max(width, run / float(taps)));
         found = track_mean(found, one, 1.0 / float(n + 1));
     }
     return found;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wind that a WindField describes: for wind_at() and for the rim of the window. Fetches and blends by itself: texture filters
-// are too coarse to agree with the C++ twin.
+// The wind that a WindField describes: for wind_at() and for the rim of the window. Fetches and
+// blends by itself: texture filters are too coarse to agree with the C++ twin.
 #include "shared/bindings.h"
 #include "shared/wind.h"
 
@@ -11,9 +11,12 @@ vec2 ambient_wind(WindField field, vec2 xz) {
     vec2 sum = field.mean;
     if (field.tile_cells > 0) {
         for (int layer = 0; layer < kWindLayers; ++layer) {
-            WindTap tap = wind_tile_tap(float(field.tile_cells), wind_layer_place(field, layer, xz));
-            vec2 found = wind_tap_velocity(tap, texelFetch(wind_ambient, tap.at.x), texelFetch(wind_ambient, tap.at.y),
-                                           texelFetch(wind_ambient, tap.at.z), texelFetch(wind_ambient, tap.at.w), field.tile_share);
+            WindTap tap =
+                wind_tile_tap(float(field.tile_cells), wind_layer_place(field, layer, xz));
+            vec2 found = wind_tap_velocity(tap, texelFetch(wind_ambient, tap.at.x),
+                                           texelFetch(wind_ambient, tap.at.y),
+                                           texelFetch(wind_ambient, tap.at.z),
+                                           texelFetch(wind_ambient, tap.at.w), field.tile_share);
             sum += wind_layer_velocity(field, layer, found);
         }
     }
@@ -26,8 +29,9 @@ vec2 wind_of(WindField field, vec2 xz) {
     float share = wind_window_share(field, place);
     if (share > 0.0) {
         WindTap tap = wind_window_tap(field, place);
-        vec2 found = wind_tap_velocity(tap, texelFetch(wind_local, tap.at.x), texelFetch(wind_local, tap.at.y),
-                                       texelFetch(wind_local, tap.at.z), texelFetch(wind_local, tap.at.w), field.window_share);
+        vec2 found = wind_tap_velocity(
+            tap, texelFetch(wind_local, tap.at.x), texelFetch(wind_local, tap.at.y),
+            texelFetch(wind_local, tap.at.z), texelFetch(wind_local, tap.at.w), field.window_share);
         wind += (found - wind) * share;
     }
     return wind;

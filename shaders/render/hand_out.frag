@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the resolved picture. Out: its radiance, and its depth as the host's matrix has it, into the host's textures.
+// In: the resolved picture. Out: its radiance, and its depth as the host's matrix has it, into the
+// host's textures.
 #include "shared/bindings.h"
 
 layout(binding = TEX_RESOLVE_COLOR) uniform sampler2D resolved_color;

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: what a host has drawn, its depth as its own matrix has it. Out: the same as an object of the scene, in every sample of the pixel.
+// In: what a host has drawn, its depth as its own matrix has it. Out: the same as an object of the
+// scene, in every sample of the pixel.
 #include "lib/frame.glsl"
 #include "lib/output.glsl"
 
 layout(binding = TEX_RESOLVE_COLOR) uniform sampler2D host_color;
 layout(binding = TEX_RESOLVE_DEPTH) uniform sampler2D host_scene_depth;
-uniform vec4 host_depth; // the host's depth is x + y over the distance along the axis; 1 where there is a colour
+uniform vec4 host_depth; // the host's depth is x + y over the distance along the axis; 1 where
+                         // there is a colour
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(host_scene_depth, pixel, 0).r;
-    float nothing = host_depth.y > 0.0 ? 0.0 : 1.0; // what a host clears to, whether it has a far plane or none
+    float nothing =
+        host_depth.y > 0.0 ? 0.0 : 1.0; // what a host clears to, whether it has a far plane or none
     if (depth == nothing) {
         discard;
     }

@@ -4,7 +4,7 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal_in;
-uniform vec4 place; // of its origin, world; w: scale
+uniform vec4 place;                  // of its origin, world; w: scale
 uniform vec4 axis_x, axis_y, axis_z; // its own axes in the world's; w: unused
 
 out vec3 world;

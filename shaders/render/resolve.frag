@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: multisampled targets. Out: radiance and coverage averaged; depth, tier and the like of the first sample.
+// In: multisampled targets. Out: radiance and coverage averaged; depth, tier and the like of the
+// first sample.
 #include "lib/resolved.glsl"
 
 uniform float weight;

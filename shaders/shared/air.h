@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The air of a frame: what the renderer has worked out of the atmosphere (src/render/atmosphere.h) for its sun. shared/sky.h reads it.
+// The air of a frame: what the renderer has worked out of the atmosphere (src/render/atmosphere.h)
+// for its sun. shared/sky.h reads it.
 #ifndef SWARD_SHARED_AIR_H
 #define SWARD_SHARED_AIR_H
 #include "shared/types.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kSkyRows = 16; // elevations; row i at the sine (i / (kSkyRows - 1))^2, so that most lie at the horizon
+SHARED_CONST int kSkyRows =
+    16; // elevations; row i at the sine (i / (kSkyRows - 1))^2, so that most lie at the horizon
 
-// Sky radiance at one elevation over the phase function of what scatters it: `x` + `x_turn` times the cosine of the azimuth from the sun.
+// Sky radiance at one elevation over the phase function of what scatters it: `x` + `x_turn` times
+// the cosine of the azimuth from the sun.
 struct SkyRow {
     vec4 molecules, molecules_turn;
     vec4 haze, haze_turn;
@@ -49,14 +52,15 @@ SHARED_FN float phase_of_haze(float c) {
     return 3.0f / (8.0f * kPi) * (1.0f - g * g) / (2.0f + g * g) * (1.0f + c * c) / (d * sqrt(d));
 }
 
-// Mean of exp(-h / H) along a way that climbs by `rise` = height / H, from h = 0: (1 - exp(-rise)) / rise.
+// Mean of exp(-h / H) along a way that climbs by `rise` = height / H, from h = 0: (1 - exp(-rise))
+// / rise.
 SHARED_FN float thinning(float rise) {
     float x = clamp(rise, -20.0f, 80.0f);
     return abs(x) < 1e-3f ? 1.0f - 0.5f * x : (1.0f - exp(-x)) / x;
 }
 
-// Shadow of the land, from the two heights over the ground (m) where the sun's disc begins to be seen and is wholly seen: share of the
-// disc that a point `above` the ground (m) sees.
+// Shadow of the land, from the two heights over the ground (m) where the sun's disc begins to be
+// seen and is wholly seen: share of the disc that a point `above` the ground (m) sees.
 SHARED_FN float sun_share(vec2 seen_from, float above) {
     return smoothstep(seen_from.x, seen_from.y, above);
 }

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where things lie in a grass set's texture arrays, and how a texel is coded. Two RGBA8 planes an image:
-//   plane 0 "id":    R share 0..1 of the texel covered by any blade of the slab; of the one that covers most of it:
-//                    G rank, B seed, A species and place along the blade v (0 root .. 1 tip): 3 + 5 bits
-//   plane 1 "shape": RG tangent x, z as t * 0.5 + 0.5 (its y is >= 0), BA offset from the texel's centre (on the layer's or
+// Where things lie in a grass set's texture arrays, and how a texel is coded. Two RGBA8 planes an
+// image:
+//   plane 0 "id":    R share 0..1 of the texel covered by any blade of the slab; of the one that
+//   covers most of it:
+//                    G rank, B seed, A species and place along the blade v (0 root .. 1 tip): 3 + 5
+//                    bits
+//   plane 1 "shape": RG tangent x, z as t * 0.5 + 0.5 (its y is >= 0), BA offset from the texel's
+//   centre (on the layer's or
 //                    slice's own plane) to the blade's root in x, z: o / offset_range * 0.5 + 0.5
-// Images are sampled nearest: a texel belongs to one blade. In layers u runs along +x and v along +z; in x-slices (planes
-// x = const) u runs along +z, in z-slices (planes z = const) along +x, and v up from the ground to the canopy's top.
+// Images are sampled nearest: a texel belongs to one blade. In layers u runs along +x and v along
+// +z; in x-slices (planes x = const) u runs along +z, in z-slices (planes z = const) along +x, and
+// v up from the ground to the canopy's top.
 #ifndef SWARD_SHARED_GRASS_LAYOUT_H
 #define SWARD_SHARED_GRASS_LAYOUT_H
 #include "shared/blade.h"
@@ -19,8 +24,8 @@ SHARED_CONST int kPlaneShape = 1;
 SHARED_CONST int kAxisX = 0; // slices across x: planes x = const
 SHARED_CONST int kAxisZ = 1;
 
-// B1: one image stands for all layers, and R of its id plane is the height of the blade seen from above, not coverage. Linear, or
-// top-weighted: finer near the canopy's top, where shells are seen.
+// B1: one image stands for all layers, and R of its id plane is the height of the blade seen from
+// above, not coverage. Linear, or top-weighted: finer near the canopy's top, where shells are seen.
 SHARED_CONST int kHeightNone = 0; // an image a layer
 SHARED_CONST int kHeightLinear = 1;
 SHARED_CONST int kHeightTop = 2;
@@ -74,7 +79,8 @@ struct GrassGloss {
     float specular_power;
 };
 
-// How a species looks to the shading function (linear reflectance), and the outline of its blades. 96 bytes.
+// How a species looks to the shading function (linear reflectance), and the outline of its blades.
+// 96 bytes.
 struct GrassAppearance {
     vec3 root;          // colour there
     float dry_share;    // of blades, 0..1
@@ -83,8 +89,8 @@ struct GrassAppearance {
     vec3 dry;           // colour of a dry blade
     float translucency; // 0..1
     GrassGloss gloss;
-    vec3 head;          // colour of the head: seeds, petals, the blade of a leaf
-    float unused;       // to 16 bytes
+    vec3 head;    // colour of the head: seeds, petals, the blade of a leaf
+    float unused; // to 16 bytes
     BladeOutline outline;
 };
 #ifdef __cplusplus

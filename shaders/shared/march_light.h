@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of what the far field's march sees: sums over its steps, which the one shading function (shared/shading.h) takes. For the march
-// itself, and for the mean of it that sward holds against rays through the blades (shells/march_light.h).
+// The light of what the far field's march sees: sums over its steps, which the one shading function
+// (shared/shading.h) takes. For the march itself, and for the mean of it that sward holds against
+// rays through the blades (shells/march_light.h).
 #ifndef SWARD_SHARED_MARCH_LIGHT_H
 #define SWARD_SHARED_MARCH_LIGHT_H
 #include "shared/march.h"
@@ -19,13 +20,16 @@ struct MarchBlades {
 // Mean tangent of blades at height y (m) at rest, as the wind turns them.
 SHARED_FN vec3 march_turned(MarchPath path, float y, vec3 rest) {
     vec2 turn = march_turn(path.bend.z * y);
-    return vec3(rest.x, 0.0f, rest.z) + rest.y * vec3(path.bend.x * turn.x, turn.y, path.bend.y * turn.x);
+    return vec3(rest.x, 0.0f, rest.z) +
+           rest.y * vec3(path.bend.x * turn.x, turn.y, path.bend.y * turn.x);
 }
 
-// Mean tangent at rest of a step's blades: as read where a pixel tells blades apart, else the layer's.
+// Mean tangent at rest of a step's blades: as read where a pixel tells blades apart, else the
+// layer's.
 SHARED_CONST float kFibresFrom = 3.5f, kFibresTo = 4.5f; // mips
 SHARED_FN vec3 march_fibre(MARCH_MEDIUM MarchStep taken, vec3 read) {
-    return mix(read, vec3(0.0f, medium.layers[taken.layer].x, 0.0f), smoothstep(kFibresFrom, kFibresTo, taken.mip));
+    return mix(read, vec3(0.0f, medium.layers[taken.layer].x, 0.0f),
+               smoothstep(kFibresFrom, kFibresTo, taken.mip));
 }
 
 // How much of what a ray crosses it crosses from above, 0..1.
@@ -49,9 +53,10 @@ SHARED_FN GrassSums march_nothing() {
     return sums;
 }
 
-// Adds a step's blades. Until march_radiance `tangent` is a sum, and `along` the share of the pixel that has been seen. `slope`: cosine between
-// the ground's normal and the sun.
-SHARED_FN void march_gather(SHARED_INOUT(GrassSums) sums, Light light, float slope, MarchBlades blades) {
+// Adds a step's blades. Until march_radiance `tangent` is a sum, and `along` the share of the pixel
+// that has been seen. `slope`: cosine between the ground's normal and the sun.
+SHARED_FN void march_gather(SHARED_INOUT(GrassSums) sums, Light light, float slope,
+                            MarchBlades blades) {
     float sun = canopy_sun(light, blades.height, slope);
     sums.sunlit = sums.sunlit + blades.albedo * (blades.shown * sun);
     sums.skylit = sums.skylit + blades.albedo * (blades.shown * canopy_sky(light, blades.height));
@@ -68,7 +73,8 @@ struct MarchGround {
 };
 
 // What stands on such ground: leaning toward the eye, lower or higher than on level ground.
-SHARED_FN void march_stand(MARCH_MEDIUM SHARED_INOUT(GrassSums) sums, Light light, MarchGround ground, vec3 to_eye) {
+SHARED_FN void march_stand(MARCH_MEDIUM SHARED_INOUT(GrassSums) sums, Light light,
+                           MarchGround ground, vec3 to_eye) {
     float at = clamp(ground.elevation / 5.0f, 0.0f, float(kMarchElevations) - 1.001f);
     int row = int(at);
     vec4 known = mix(medium.slopes[row], medium.slopes[row + 1], at - float(row));

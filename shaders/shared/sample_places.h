@@ -12,7 +12,8 @@ SHARED_CONST int kMostSamples = 8;    // a pixel
 // 2064 bytes.
 struct SampleRound {
     ivec4 counts; // pictures; samples a pixel
-    vec4 places[kRoundPictures * kMostSamples]; // x, y of each picture's samples, of the pixel at 0, 0
+    vec4 places[kRoundPictures *
+                kMostSamples]; // x, y of each picture's samples, of the pixel at 0, 0
 };
 #ifdef __cplusplus
 static_assert(sizeof(SampleRound) == 16 + 16 * kRoundPictures * kMostSamples);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground: bicubic interpolation between posts and procedural relief finer than them. The clipmap's shader and the CPU
-// (agl cameras, flight models) call the same functions.
+// The ground: bicubic interpolation between posts and procedural relief finer than them. The
+// clipmap's shader and the CPU (agl cameras, flight models) call the same functions.
 #ifndef SWARD_SHARED_SURFACE_H
 #define SWARD_SHARED_SURFACE_H
 #include "shared/hash.h"
@@ -8,20 +8,21 @@
 
 SHARED_BEGIN
 
-SHARED_CONST int kReliefOctaves = 5;            // wavelengths 64, 32, 16, 8, 4 m; each costs one noise evaluation a post
+SHARED_CONST int kReliefOctaves =
+    5; // wavelengths 64, 32, 16, 8, 4 m; each costs one noise evaluation a post
 SHARED_CONST float kReliefWavelength_m = 64.0f; // the longest
 
 // What a clipmap level is made from. 64 bytes.
 struct SurfaceParams {
-    ivec2 posts;      // in x, z
-    vec2 post_m;      // their spacing in x, z
-    vec2 anchor;      // x, z (m), for drawing
-    ivec2 first;      // post i, j of this level's window (world posts)
+    ivec2 posts; // in x, z
+    vec2 post_m; // their spacing in x, z
+    vec2 anchor; // x, z (m), for drawing
+    ivec2 first; // post i, j of this level's window (world posts)
     int level;
-    float spacing_m;  // of this level
-    float relief_m;   // amplitude
-    float detail_from_m; // for drawing: detail_reach's start
-    float zoom;       // likewise
+    float spacing_m;                    // of this level
+    float relief_m;                     // amplitude
+    float detail_from_m;                // for drawing: detail_reach's start
+    float zoom;                         // likewise
     float unused_a, unused_b, unused_c; // to 64 bytes
 };
 #ifdef __cplusplus
@@ -30,7 +31,10 @@ static_assert(sizeof(SurfaceParams) == 64);
 
 // Catmull-Rom through p1 and p2: passes through every post, slope continuous.
 SHARED_FN float catmull_rom(vec4 p, float t) {
-    return p.y + 0.5f * t * (p.z - p.x + t * (2.0f * p.x - 5.0f * p.y + 4.0f * p.z - p.w + t * (3.0f * (p.y - p.z) + p.w - p.x)));
+    return p.y + 0.5f * t *
+                     (p.z - p.x +
+                      t * (2.0f * p.x - 5.0f * p.y + 4.0f * p.z - p.w +
+                           t * (3.0f * (p.y - p.z) + p.w - p.x)));
 }
 
 SHARED_FN float gradient_dot(ivec2 cell, vec2 offset) {
@@ -51,15 +55,16 @@ SHARED_FN float gradient_noise(vec2 p) {
     return mix(mix(n00, n10, w.x), mix(n01, n11, w.x), w.y);
 }
 
-// Relief (m) at world xz for a grid of `spacing` metres: octaves shorter than four posts are left out, so that a level
-// never samples what it cannot hold.
+// Relief (m) at world xz for a grid of `spacing` metres: octaves shorter than four posts are left
+// out, so that a level never samples what it cannot hold.
 SHARED_FN float relief_at(vec2 xz, float amplitude, float spacing) {
     float sum = 0.0f;
     float wavelength = kReliefWavelength_m;
     float weight = amplitude;
     for (int i = 0; i < kReliefOctaves; ++i) {
         if (wavelength >= 4.0f * spacing) {
-            sum += weight * gradient_noise(xz / wavelength + vec2(float(i) * 17.0f, float(i) * 31.0f));
+            sum +=
+                weight * gradient_noise(xz / wavelength + vec2(float(i) * 17.0f, float(i) * 31.0f));
         }
         wavelength *= 0.5f;
         weight *= 0.45f;
@@ -77,14 +82,18 @@ SHARED_FN float slope_density(vec3 normal, vec2 xz) {
 // Slow variation of soil and sward, 0..1, for a grid of `spacing` metres.
 SHARED_FN float surface_tint(vec2 xz, float spacing) {
     return clamp(0.5f + 0.5f * gradient_noise(xz / 310.0f) + 0.35f * gradient_noise(xz / 71.0f) +
-                 (spacing <= 8.0f ? 0.2f * gradient_noise(xz / 19.0f) : 0.0f), 0.0f, 1.0f);
+                     (spacing <= 8.0f ? 0.2f * gradient_noise(xz / 19.0f) : 0.0f),
+                 0.0f, 1.0f);
 }
 
-// From how far (m) the ground at a distance (larger of |x|, |z|) is to be seen as: levels go by it. Up to `start`, where blades may stand,
-// by distance alone; from twice that on through a lens that brings it `zoom` times nearer.
+// From how far (m) the ground at a distance (larger of |x|, |z|) is to be seen as: levels go by it.
+// Up to `start`, where blades may stand, by distance alone; from twice that on through a lens that
+// brings it `zoom` times nearer.
 SHARED_FN float detail_reach(float distance_m, float start, float zoom) {
     float t = clamp(distance_m / max(start, 1e-3f) - 1.0f, 0.0f, 1.0f);
-    return distance_m <= start ? distance_m : t < 1.0f ? mix(start, 2.0f * start / zoom, t) : distance_m / zoom;
+    return distance_m <= start ? distance_m
+           : t < 1.0f          ? mix(start, 2.0f * start / zoom, t)
+                               : distance_m / zoom;
 }
 
 SHARED_END

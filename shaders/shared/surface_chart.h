@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a grass set lies on a mesh: in charts, each a flat view of the triangles that face its way, on which the set's patches are laid as on
-// level ground. The placement of blades and the far field call the same functions, so that both have the same grass at a place.
+// How a grass set lies on a mesh: in charts, each a flat view of the triangles that face its way,
+// on which the set's patches are laid as on level ground. The placement of blades and the far field
+// call the same functions, so that both have the same grass at a place.
 #ifndef SWARD_SHARED_SURFACE_CHART_H
 #define SWARD_SHARED_SURFACE_CHART_H
 #include "shared/surface_blade.h"
@@ -8,7 +9,8 @@
 
 SHARED_BEGIN
 
-// To the faces, edges and corners of a cube: a surface is never off its chart's direction by more than 27.4 degrees.
+// To the faces, edges and corners of a cube: a surface is never off its chart's direction by more
+// than 27.4 degrees.
 SHARED_CONST int kCharts = 26;
 
 // Unit direction that a chart faces.
@@ -29,7 +31,8 @@ SHARED_FN int chart_of(vec3 normal) {
     return best;
 }
 
-// The patch's x on a chart, as a direction in the mesh's space; its z is square to it and to chart_up.
+// The patch's x on a chart, as a direction in the mesh's space; its z is square to it and to
+// chart_up.
 SHARED_FN vec3 chart_east(int chart) {
     return surface_width_direction(chart_up(chart), 0.0f);
 }
@@ -65,7 +68,8 @@ SHARED_FN vec3 to_surface(SurfaceFrame frame, vec3 v) {
 
 // Slow variation over a mesh, 0..1: two waves whose lengths are metres.
 SHARED_FN float surface_tint(vec3 place) {
-    return 0.5f + 0.25f * (sin(dot(place, vec3(1.9f, 0.7f, 1.3f))) + sin(dot(place, vec3(-0.8f, 1.7f, 2.3f)) + 2.0f));
+    return 0.5f + 0.25f * (sin(dot(place, vec3(1.9f, 0.7f, 1.3f))) +
+                           sin(dot(place, vec3(-0.8f, 1.7f, 2.3f)) + 2.0f));
 }
 
 SHARED_END

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the patch lies on a tile of the plane: shifted round (it closes on itself), mirrored and turned, so that no two tiles look alike and
-// the picture has no period. One hash of the tile, read by every tier.
+// How the patch lies on a tile of the plane: shifted round (it closes on itself), mirrored and
+// turned, so that no two tiles look alike and the picture has no period. One hash of the tile, read
+// by every tier.
 //
-// A shift is a whole number of eighths of the side, which are planes of every set of slabs: a slab of the patch is one of the tile. Over all
-// shifts the sum of a tile's pattern is plain but for waves of an eighth of the side and shorter (docs/far-field.md).
+// A shift is a whole number of eighths of the side, which are planes of every set of slabs: a slab
+// of the patch is one of the tile. Over all shifts the sum of a tile's pattern is plain but for
+// waves of an eighth of the side and shorter (docs/far-field.md).
 #ifndef SWARD_SHARED_TILE_LIE_H
 #define SWARD_SHARED_TILE_LIE_H
 #include "shared/blade.h"
@@ -14,7 +16,8 @@ SHARED_BEGIN
 SHARED_CONST int kLieShifts = 8; // a side
 SHARED_CONST uint kLieAsGrown = 0u;
 
-// A lie: bits 0 to 2 and 3 to 5 are the shift along x and z in eighths of the side; 6 and 7 mirror x and z; 8 swaps x and z, before all that.
+// A lie: bits 0 to 2 and 3 to 5 are the shift along x and z in eighths of the side; 6 and 7 mirror
+// x and z; 8 swaps x and z, before all that.
 SHARED_FN uint tile_lie(ivec2 tile) {
     return hash_ivec2(tile, 0x5eedu) & 511u; // tile_variant takes the high bits
 }
@@ -40,14 +43,15 @@ SHARED_FN vec2 lie_place(uint lie, vec2 place) {
     return fract(lie_along(lie, place) + lie_shift(lie));
 }
 
-// Place of the patch, for a texture that repeats, that lies at a place on a tile: lie_place backwards.
+// Place of the patch, for a texture that repeats, that lies at a place on a tile: lie_place
+// backwards.
 SHARED_FN vec2 lie_source(uint lie, vec2 place) {
     vec2 at = (place - lie_shift(lie)) * lie_mirror(lie);
     return lie_turned(lie) ? vec2(at.y, at.x) : at;
 }
 
-// A blade of the patch as it lies on a tile; its root is in [0, side) from the tile's corner. A mirror image's width runs from the other rim, so that
-// its front is the mirror image of the front.
+// A blade of the patch as it lies on a tile; its root is in [0, side) from the tile's corner. A
+// mirror image's width runs from the other rim, so that its front is the mirror image of the front.
 SHARED_FN BladeRecord lay_blade(uint lie, BladeRecord blade, float side) {
     BladeRecord laid = blade;
     vec2 root = lie_place(lie, vec2(blade.root.x, blade.root.y) / side) * side;

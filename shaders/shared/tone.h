@@ -6,7 +6,8 @@
 
 SHARED_BEGIN
 
-// Filmic curve fitted to the ACES reference transform (Narkowicz 2015), per channel: deep shade, bright sky, no clipping.
+// Filmic curve fitted to the ACES reference transform (Narkowicz 2015), per channel: deep shade,
+// bright sky, no clipping.
 SHARED_FN vec3 tone_map(vec3 radiance) {
     vec3 x = max(radiance * 0.62f, vec3(0.0f, 0.0f, 0.0f));
     vec3 y = (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f);

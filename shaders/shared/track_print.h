@@ -17,9 +17,9 @@ struct TrackRules {
     float wave_gain_m;     // mu
     float most_wave_mps;   // greatest speed of a wave, inside the stable bound
     float canopy_m;
-    float broken;          // share of stems that break under a full load
-    float left;            // of a pressed cell's 1 since its count began
-    float unused;          // to 48 bytes
+    float broken; // share of stems that break under a full load
+    float left;   // of a pressed cell's 1 since its count began
+    float unused; // to 48 bytes
 };
 
 // Where a print is. 16 bytes.
@@ -30,22 +30,23 @@ struct TrackPlace {
 
 // Relative to a page's north-west corner (m). 64 bytes.
 struct TrackPrint {
-    TrackPlace now;     // at the step's end
-    TrackPlace before;  // at its start
+    TrackPlace now;    // at the step's end
+    TrackPlace before; // at its start
     float half_width_m;
-    float half_depth_m; // or radius
-    float underside_m;  // its lowest height over the ground
-    float load;         // share of its load, 0..1
-    int kind;           // kPrint*
+    float half_depth_m;               // or radius
+    float underside_m;                // its lowest height over the ground
+    float load;                       // share of its load, 0..1
+    int kind;                         // kPrint*
     int unused_a, unused_b, unused_c; // to 64 bytes
 };
 SHARED_CONST int kPrintBox = 0;    // its underside is flat
 SHARED_CONST int kPrintSphere = 1; // half_depth_m: radius
-SHARED_CONST int kPrintWheel = 2;  // rolls along its own z; half_width_m: half of its width, half_depth_m: radius
+SHARED_CONST int kPrintWheel =
+    2; // rolls along its own z; half_width_m: half of its width, half_depth_m: radius
 
 // A block that is stepped, or only pressed. 48 bytes.
 struct TrackBlock {
-    int slot;         // of its page
+    int slot; // of its page
     int first_print;
     int prints;
     int own;          // its place in the pool of what moves

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge that lets C++ and GLSL compile the same header: GLSL's names in namespace sward::shared.
-// Structs that cross lie alike in C++, std140 and std430: a vec3 has a scalar after it that fills its 16 bytes, a vec2 lies at a multiple of 8,
-// a struct is a multiple of 16 long. C++ asserts every size, tests/gl/programs_test.cpp every place.
+// The bridge that lets C++ and GLSL compile the same header: GLSL's names in namespace
+// sward::shared. Structs that cross lie alike in C++, std140 and std430: a vec3 has a scalar after
+// it that fills its 16 bytes, a vec2 lies at a multiple of 8, a struct is a multiple of 16 long.
+// C++ asserts every size, tests/gl/programs_test.cpp every place.
 #ifndef SWARD_SHARED_TYPES_H
 #define SWARD_SHARED_TYPES_H
 

@@ -1,36 +1,38 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where wind_at() finds its answer: the ambient tile, laid over the plane twice and carried along by the mean wind, and the
-// local window over it. The arithmetic of places and weights is here, for shaders and for the C++ twin; each fetches by itself.
+// Where wind_at() finds its answer: the ambient tile, laid over the plane twice and carried along
+// by the mean wind, and the local window over it. The arithmetic of places and weights is here, for
+// shaders and for the C++ twin; each fetches by itself.
 #ifndef SWARD_SHARED_WIND_H
 #define SWARD_SHARED_WIND_H
 #include "shared/types.h"
 
 SHARED_BEGIN
 
-SHARED_CONST int kWindLayers = 2; // copies of the ambient tile: one alone would show itself repeating
+SHARED_CONST int kWindLayers =
+    2; // copies of the ambient tile: one alone would show itself repeating
 
-// Offsets hold anchor and time already (reduced in double precision on the CPU), so that shaders only add places near
-// the anchor. A layer: 32 bytes; the field: 128.
+// Offsets hold anchor and time already (reduced in double precision on the CPU), so that shaders
+// only add places near the anchor. A layer: 32 bytes; the field: 128.
 struct WindLayer {
-    vec2 place;   // tile coordinates of the anchor (cells)
-    vec2 turn;    // cosine and sine of the layer's turn over its cell (1/m)
+    vec2 place; // tile coordinates of the anchor (cells)
+    vec2 turn;  // cosine and sine of the layer's turn over its cell (1/m)
     float weight;
     float cell_m;
     float unused_a, unused_b; // to 32 bytes
 };
 
 struct WindField {
-    vec2 mean;           // mean velocity x, z (m/s)
-    float response;      // of the grass, 1 / (m/s)
-    int tile_cells;      // a side of the tile, 0: no gusts
+    vec2 mean;      // mean velocity x, z (m/s)
+    float response; // of the grass, 1 / (m/s)
+    int tile_cells; // a side of the tile, 0: no gusts
     WindLayer layers[kWindLayers];
-    vec2 window_corner_m; // the north-west one from the anchor x, z
-    float window_per_m;  // 1 / cell
-    int window_cells;    // a side, 0: no window
-    ivec2 window_first;  // storage place of that corner's cell x, z
-    float window_share;  // of the latest state in time
-    float window_rim;    // width of its blend (cells)
-    float tile_share;    // of the tile's latest state in time
+    vec2 window_corner_m;               // the north-west one from the anchor x, z
+    float window_per_m;                 // 1 / cell
+    int window_cells;                   // a side, 0: no window
+    ivec2 window_first;                 // storage place of that corner's cell x, z
+    float window_share;                 // of the latest state in time
+    float window_rim;                   // width of its blend (cells)
+    float tile_share;                   // of the tile's latest state in time
     float unused_a, unused_b, unused_c; // to 16 bytes
 };
 #ifdef __cplusplus
@@ -40,7 +42,8 @@ static_assert(sizeof(WindLayer) == 32 && sizeof(WindField) == 128);
 // Winds that the far appearance is computed for: 0.5, 1 and 1.5 times the mean one.
 SHARED_CONST int kFarWinds = 3;
 
-// The speed that far winds are parts of (m/s): the mean one, but never so little that arrows in still air would find no table.
+// The speed that far winds are parts of (m/s): the mean one, but never so little that arrows in
+// still air would find no table.
 SHARED_FN float far_wind_speed(WindField field) {
     return max(length(field.mean), 2.0f);
 }
@@ -72,7 +75,8 @@ SHARED_FN vec2 wind_layer_place(WindField field, int layer, vec2 xz) {
 SHARED_FN vec2 wind_layer_velocity(WindField field, int layer, vec2 velocity) {
     vec2 turn = field.layers[layer].turn;
     float scale = field.layers[layer].cell_m * field.layers[layer].weight;
-    return scale * vec2(turn.x * velocity.x - turn.y * velocity.y, turn.y * velocity.x + turn.x * velocity.y);
+    return scale * vec2(turn.x * velocity.x - turn.y * velocity.y,
+                        turn.y * velocity.x + turn.x * velocity.y);
 }
 
 SHARED_FN WindTap wind_tile_tap(float cells, vec2 place) {
@@ -115,7 +119,8 @@ SHARED_FN float wind_window_share(WindField field, vec2 place) {
     return n > 0.0f ? t * t * (3.0f - 2.0f * t) : 0.0f;
 }
 
-// Velocity among four fetched elements (previous state xy, latest zw), `latest` the latest one's share.
+// Velocity among four fetched elements (previous state xy, latest zw), `latest` the latest one's
+// share.
 SHARED_FN vec2 wind_tap_velocity(WindTap tap, vec4 nw, vec4 ne, vec4 sw, vec4 se, float latest) {
     vec4 north = nw + (ne - nw) * tap.within.x;
     vec4 south = sw + (se - sw) * tap.within.x;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pushes the air in the window: arrows (methods.md W5), analytic sources (J4, C5). One function says what a force wants at
-// a place; the passes of shaders/wind/ and the tests ask it alike.
+// What pushes the air in the window: arrows (methods.md W5), analytic sources (J4, C5). One
+// function says what a force wants at a place; the passes of shaders/wind/ and the tests ask it
+// alike.
 #ifndef SWARD_SHARED_WIND_FORCE_H
 #define SWARD_SHARED_WIND_FORCE_H
 #include "shared/types.h"
@@ -16,17 +17,19 @@ SHARED_CONST int kForceWave = 5;   // directional moving sines
 
 // 64 bytes.
 struct WindForce {
-    vec2 place;        // x, z from the window's north-west corner (m)
-    vec2 along;        // unit direction x, z
-    float radius_m;    // disc, strip, wake: half width; ring, vortex: of the highest speed; wave: reach
-    float reach_m;     // or length (strip, wake)
+    vec2 place; // x, z from the window's north-west corner (m)
+    vec2 along; // unit direction x, z
+    float
+        radius_m;  // disc, strip, wake: half width; ring, vortex: of the highest speed; wave: reach
+    float reach_m; // or length (strip, wake)
     float speed_mps;
     float rate_per_s;
     vec2 velocity;     // of a vortex itself x, z (m/s)
     float wave_number; // of a wave (rad/m)
     float wave_phase;  // at its place (rad)
     int kind;          // kForce*
-    float inflow;      // of a vortex, over its tangential speed; its sign is the turn (+ clockwise from above)
+    float inflow; // of a vortex, over its tangential speed; its sign is the turn (+ clockwise from
+                  // above)
     int unused_a, unused_b; // to 64 bytes
 };
 #ifdef __cplusplus
@@ -37,7 +40,8 @@ static_assert(sizeof(WindForce) == 64);
 struct WindPush {
     vec2 target;  // velocity that the air relaxes to (m/s)
     float rate;   // how fast (1/s); 0: not at all
-    vec2 outflow; // velocity field whose divergence is air that comes from above or leaves upwards (m/s)
+    vec2 outflow; // velocity field whose divergence is air that comes from above or leaves upwards
+                  // (m/s)
 };
 
 // 1 in the middle, 0 with zero slope from the rim on.
@@ -46,8 +50,8 @@ SHARED_FN float force_weight(float share_of_radius) {
     return inside * inside;
 }
 
-// Lamb-Oseen: rises linearly in the core, is 1 at s = 1 and falls as 1 / s. The radial wall jet below a rotor has much the same
-// profile (Poreh, Tsuei and Cermak measured a fall by r^-1.1).
+// Lamb-Oseen: rises linearly in the core, is 1 at s = 1 and falls as 1 / s. The radial wall jet
+// below a rotor has much the same profile (Poreh, Tsuei and Cermak measured a fall by r^-1.1).
 SHARED_FN float ring_profile(float s) {
     if (s < 1e-3f)
         return 1.756f * s;
@@ -64,8 +68,8 @@ SHARED_FN float wave_profile(float phase) {
     return 0.6f * sin(phase) + 0.25f * sin(2.0f * phase + 1.1f) + 0.15f * sin(3.0f * phase + 2.3f);
 }
 
-// Speed of a wake, 0..1, and its half width over that at the vehicle, `behind` half widths behind it: momentum is kept as
-// an axisymmetric wake widens, u ~ x^-2/3, b ~ x^1/3 (Schlichting).
+// Speed of a wake, 0..1, and its half width over that at the vehicle, `behind` half widths behind
+// it: momentum is kept as an axisymmetric wake widens, u ~ x^-2/3, b ~ x^1/3 (Schlichting).
 SHARED_FN vec2 wake_at(float behind) {
     float grown = pow(1.0f + 0.25f * max(behind, 0.0f), 1.0f / 3.0f);
     return vec2(1.0f / (grown * grown), grown);
@@ -94,29 +98,34 @@ SHARED_FN WindPush wind_force_at(WindForce force, vec2 xz) {
         float behind = -dot(from, along);
         vec2 shape = wake_at(behind / radius);
         float aside = length(from + along * behind) / (radius * shape.y);
-        float ends = smoothstep(-radius, 0.0f, behind) * (1.0f - smoothstep(0.5f * force.reach_m, force.reach_m, behind));
+        float ends = smoothstep(-radius, 0.0f, behind) *
+                     (1.0f - smoothstep(0.5f * force.reach_m, force.reach_m, behind));
         push.target = along * (speed * shape.x);
         push.rate = force.rate_per_s * ends * force_weight(0.5f * aside);
     } else if (kind == kForceRing) {
-        float profile = speed * ring_profile(distance_m / radius) * reach_weight(distance_m, force.reach_m);
+        float profile =
+            speed * ring_profile(distance_m / radius) * reach_weight(distance_m, force.reach_m);
         push.outflow = from * (profile / max(distance_m, 1e-6f));
     } else if (kind == kForceVortex) {
         float weight = reach_weight(distance_m, force.reach_m);
         vec2 outwards = from / max(distance_m, 1e-6f);
-        vec2 around = vec2(-outwards.y, outwards.x) * (force.inflow < 0.0f ? -1.0f : 1.0f); // x east, z south: clockwise
+        vec2 around = vec2(-outwards.y, outwards.x) *
+                      (force.inflow < 0.0f ? -1.0f : 1.0f); // x east, z south: clockwise
         float profile = speed * ring_profile(distance_m / radius);
         push.outflow = outwards * (-abs(force.inflow) * profile * weight);
         push.target = around * profile + push.outflow + force.velocity;
         push.rate = force.rate_per_s * weight;
     } else {
-        float profile = wave_profile(force.wave_number * dot(from, along) + force.wave_phase) * reach_weight(distance_m, force.reach_m);
+        float profile = wave_profile(force.wave_number * dot(from, along) + force.wave_phase) *
+                        reach_weight(distance_m, force.reach_m);
         push.outflow = along * (speed * profile);
     }
     return push;
 }
 
-// Velocity of air that several forces push for `step_s`: a mean of what it was and what each wants, weighted by their rates, so
-// that it comes near a target and never passes it. `wanted`: sum of rate * target; `rate`: sum of rates.
+// Velocity of air that several forces push for `step_s`: a mean of what it was and what each wants,
+// weighted by their rates, so that it comes near a target and never passes it. `wanted`: sum of
+// rate * target; `rate`: sum of rates.
 SHARED_FN float relaxed(float speed, float wanted, float rate, float step_s) {
     return (speed + wanted * step_s) / (1.0f + rate * step_s);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Obstacles in the wind's window. Boxes and circles are tested in closed form; a mesh is its footprint, drawn once into bits of
-// its own frame, so that standing, moving and turning cost the same.
+// Obstacles in the wind's window. Boxes and circles are tested in closed form; a mesh is its
+// footprint, drawn once into bits of its own frame, so that standing, moving and turning cost the
+// same.
 #ifndef SWARD_SHARED_WIND_SOLID_H
 #define SWARD_SHARED_WIND_SOLID_H
 #include "shared/types.h"
@@ -31,7 +32,8 @@ static_assert(sizeof(WindSolid) == 64);
 // A place in the solid's own frame: x to its right, z behind it.
 SHARED_FN vec2 solid_frame(WindSolid solid, vec2 xz) {
     vec2 from = xz - solid.place;
-    return vec2(solid.heading.x * from.x + solid.heading.y * from.y, solid.heading.x * from.y - solid.heading.y * from.x);
+    return vec2(solid.heading.x * from.x + solid.heading.y * from.y,
+                solid.heading.x * from.y - solid.heading.y * from.x);
 }
 
 // Whether a box or circle covers a place of its own frame.
@@ -41,7 +43,8 @@ SHARED_FN bool solid_covers(WindSolid solid, vec2 own) {
     return abs(own.x) <= solid.half_size.x && abs(own.y) <= solid.half_size.y;
 }
 
-// Number of the bit that holds a place of a footprint's own frame, -1 outside. Rows lie one after the other, 32 bits a word.
+// Number of the bit that holds a place of a footprint's own frame, -1 outside. Rows lie one after
+// the other, 32 bits a word.
 SHARED_FN int solid_bit(WindSolid solid, vec2 own) {
     vec2 at = (own - solid.corner) / solid.bit_m;
     if (!(at.x >= 0.0f && at.y >= 0.0f && at.x < float(solid.bits.x) && at.y < float(solid.bits.y)))

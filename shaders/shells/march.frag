@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: the drawn scene, the canopy's upper surface, one kind's textures. Out: the scene resolved, seen through the far field: the pixel's ray is
-// marched through the canopy, front to back, from where it enters it (docs/far-field.md). Variants: COLUMNS, else slabs;
-// CREST, for rays that may leave the canopy and come to another.
+// In: the drawn scene, the canopy's upper surface, one kind's textures. Out: the scene resolved,
+// seen through the far field: the pixel's ray is marched through the canopy, front to back, from
+// where it enters it (docs/far-field.md). Variants: COLUMNS, else slabs; CREST, for rays that may
+// leave the canopy and come to another.
 #include "lib/resolved.glsl"
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
@@ -19,24 +20,32 @@ layout(binding = TEX_MARCH_LIGHT) uniform sampler2DArray light_factors;
 uniform int kind;
 in vec2 ndc;
 #ifdef COUNT
-layout(early_fragment_tests) in; // a shader that writes to memory would run for pixels of other kinds too
-layout(std430, binding = BIND_MARCH_COUNTS) buffer Counts { uint all_steps; uint all_reads; };
-const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, depths 4, colours 4, correction 1; factors on light are a stretch's
+layout(early_fragment_tests)
+    in; // a shader that writes to memory would run for pixels of other kinds too
+layout(std430, binding = BIND_MARCH_COUNTS) buffer Counts {
+    uint all_steps;
+    uint all_reads;
+};
+const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, depths 4, colours 4,
+                             // correction 1; factors on light are a stretch's
 int steps_taken = 0, texels_read = kReadsAPixel;
 #endif
 
-const float kHorizon = 50000.0;   // nobody sees grass beyond (m)
-const int kStretches = 5;         // of one ray through the canopy: over crests, and along ground that curves away
-const float kOnGround = 0.9;      // of the way to the ground: what stands beyond is the ground
-const float kBeside = 1e-3;        // of the distance: what is drawn of the ground may be so far from it (m a metre)
-const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent (no pixel differs by more than 3/255)
-const float kOtherDensity = 0.4;  // of the correction's second factors
+const float kHorizon = 50000.0; // nobody sees grass beyond (m)
+const int kStretches =
+    5; // of one ray through the canopy: over crests, and along ground that curves away
+const float kOnGround = 0.9; // of the way to the ground: what stands beyond is the ground
+const float kBeside =
+    1e-3; // of the distance: what is drawn of the ground may be so far from it (m a metre)
+const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent
+                                 // (no pixel differs by more than 3/255)
+const float kOtherDensity = 0.4; // of the correction's second factors
 
 // What the march has gathered.
 struct Seen {
     GrassSums grass;
-    vec4 through;    // share of each sample's light that comes through
-    float half_way;  // distance at which half of the first sample's light is gone (m)
+    vec4 through;   // share of each sample's light that comes through
+    float half_way; // distance at which half of the first sample's light is gone (m)
 };
 
 float mean_of(vec4 samples_of_a_pixel) {
@@ -52,7 +61,8 @@ vec2 correction_at(MarchPlan plan) {
     return max(mix(factors.xy, factors.zw, thin), vec2(0.05));
 }
 
-// What the mean light of such a view is to be multiplied by (shells/march_light.h). `elevation`: sine of the view's over the ground.
+// What the mean light of such a view is to be multiplied by (shells/march_light.h). `elevation`:
+// sine of the view's over the ground.
 float light_factor(vec3 to_eye, vec3 to_sun, vec2 wind, float elevation) {
     vec2 eye = to_eye.xz + vec2(1e-5, 0.0);
     vec2 sun = to_sun.xz + vec2(1e-5, 0.0);
@@ -83,7 +93,10 @@ Texel texel_of(MarchPlan plan, MarchStep taken) {
     uint lie = tile_lie(tile);
 #endif
     plan.axis = lie_turned(lie) ? 1 - plan.axis : plan.axis;
-    return Texel(march_texel(plan, taken, vec3(lie_source(lie, place), float(tile_variant(tile, frame.patch_variants)))), lie);
+    return Texel(
+        march_texel(plan, taken,
+                    vec3(lie_source(lie, place), float(tile_variant(tile, frame.patch_variants)))),
+        lie);
 }
 
 // Are a step's blades seen well enough to be told apart?
@@ -91,7 +104,8 @@ bool shows_fibres(MarchStep taken, float shown) {
     return taken.mip < kFibresTo && shown > kLeastShown;
 }
 
-// Mean tangent of the blades at a step, as the wind turns them: read where they are told apart, else the layer's.
+// Mean tangent of the blades at a step, as the wind turns them: read where they are told apart,
+// else the layer's.
 vec3 mean_tangent(MarchPath path, MarchStep taken, Texel at, float shown) {
     vec3 mean = vec3(0.0, medium.layers[taken.layer].x, 0.0);
     if (shows_fibres(taken, shown)) {
@@ -108,20 +122,24 @@ float far_share(vec3 world) {
     return frame.far_alone != 0 || frame.handover_mode == kHandoverOff ? 1.0 : share;
 }
 
-// Tint of the sward where what is seen of it stands, as the pixel's footprint on the ground shows it.
+// Tint of the sward where what is seen of it stands, as the pixel's footprint on the ground shows
+// it.
 float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half_way) {
 #ifdef SURFACE
     return entry.ground.w;
 #else
     float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
     vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
-    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w, max(plan.footprint, 0.5 * plan.stretch));
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z),
+                         has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w,
+                         max(plan.footprint, 0.5 * plan.stretch));
 #endif
 }
 
-// The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the path has come to its end. `radiance`: of
-// what was seen of it.
-MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen, out vec3 radiance) {
+// The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the
+// path has come to its end. `radiance`: of what was seen of it.
+MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen seen,
+                out vec3 radiance) {
     MarchPlan plan = plan_of(view, entry, path);
     plan.kind = kind;
     march_settle(plan);
@@ -132,7 +150,8 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     float slope = dot(normal, frame.light.to_sun); // both in the world
     float steepness = march_steepness(plan, path.way.y);
     float ground = kOnGround * ground_reach(path);
-    vec4 ends = mix(scene - entry.distance, vec4(kNever), greaterThan(scene - entry.distance, vec4(ground)));
+    vec4 ends = mix(scene - entry.distance, vec4(kNever),
+                    greaterThan(scene - entry.distance, vec4(ground)));
     seen.grass = march_nothing();
 #if defined(CREST) || defined(SURFACE)
     MarchWalk walk = march_begin_inside(path);
@@ -144,7 +163,9 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         march_advance(path, walk, vec3(before_it, 1e9, scale));
     }
     float last = max(max(ends.x, ends.y), max(ends.z, ends.w));
-    for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last && mean_of(seen.through) > kMarchEnd; ++n) {
+    for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last &&
+                    mean_of(seen.through) > kMarchEnd;
+         ++n) {
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         Texel at = texel_of(plan, taken);
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
@@ -159,7 +180,9 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         albedo *= march_tint(taken.layer, steepness);
 #endif
         float shown = mean_of(lost);
-        march_gather(seen.grass, light, slope, MarchBlades(albedo, land_tangent(entry, mean_tangent(path, taken, at, shown)), taken.rest.y / frame.canopy_m, shown));
+        march_gather(seen.grass, light, slope,
+                     MarchBlades(albedo, land_tangent(entry, mean_tangent(path, taken, at, shown)),
+                                 taken.rest.y / frame.canopy_m, shown));
         bool more = seen.through.x > 0.5;
         seen.through -= lost;
         seen.half_way = more && seen.through.x <= 0.5 ? middle : seen.half_way;
@@ -171,17 +194,22 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     vec3 to_eye = to_eye_at(entry, view);
     float level = length(to_eye.xz);
     float fall = max(-path.height.y, 0.0);
-    march_stand(seen.grass, light, MarchGround(atan(fall, level) * (180.0 / kPi), rise_at(entry, view), slope), to_eye);
+    march_stand(seen.grass, light,
+                MarchGround(atan(fall, level) * (180.0 / kPi), rise_at(entry, view), slope),
+                to_eye);
 #ifdef COUNT
     ++texels_read;
 #endif
-    radiance = march_radiance(light, seen.grass, to_eye) * factors.y * sward_tint(tint_of(view, entry, path, plan, seen.half_way)) *
-               light_factor(to_eye, light.to_sun.xyz, entry.air.xy, fall * inversesqrt(fall * fall + level * level));
+    radiance = march_radiance(light, seen.grass, to_eye) * factors.y *
+               sward_tint(tint_of(view, entry, path, plan, seen.half_way)) *
+               light_factor(to_eye, light.to_sun.xyz, entry.air.xy,
+                            fall * inversesqrt(fall * fall + level * level));
     return walk;
 }
 
 #if defined(CREST) && !defined(SURFACE)
-// Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else kNever.
+// Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else
+// kNever.
 float next_entry(View view, float from, float last, float canopy) {
     const int kProbes = 20, kHalvings = 8;
     float low = from, high = kNever;
@@ -204,17 +232,20 @@ float next_entry(View view, float from, float last, float canopy) {
     return high;
 }
 
-// Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands behind.
+// Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands
+// behind.
 Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene) {
     Entry next = entry;
     bool over_it = walk.layer >= kMarchLayers;
-    if (over_it && eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
+    if (over_it &&
+        eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
         Entry drawn = entry_from_above(view, ivec2(gl_FragCoord.xy));
         if (drawn.distance > entry.distance + walk.s) {
             return drawn;
         }
     }
-    next.height = over_it ? path.bend.w * highest() : march_height(path, walk.s) * (has_heights() ? entry.lying : 1.0);
+    next.height = over_it ? path.bend.w * highest()
+                          : march_height(path, walk.s) * (has_heights() ? entry.lying : 1.0);
     next.distance = entry.distance + walk.s;
     if (over_it) {
         float last = min(scene, kHorizon);
@@ -223,10 +254,12 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
         next.distance = ends_soon ? kNever : next_entry(view, from, last, next.height);
         float over = frame.eye.y + view.way.y * last - ground_at(frame.eye.xz + view.way.xz * last);
         if (next.distance >= kNever && last < kHorizon && over < next.height + kBeside * last) {
-            // It ends on ground that is drawn a little beside where it is looked up: through the grass there, falling by a half.
+            // It ends on ground that is drawn a little beside where it is looked up: through the
+            // grass there, falling by a half.
             next.distance = max(last - 2.0 * next.height, from);
             next.ground = ground_under(frame.eye.xz + view.way.xz * last);
-            next.ground.xy = view.way.xz * ((view.way.y + 0.5) / max(dot(view.way.xz, view.way.xz), 1e-4));
+            next.ground.xy =
+                view.way.xz * ((view.way.y + 0.5) / max(dot(view.way.xz, view.way.xz), 1e-4));
             return next;
         }
     }
@@ -247,19 +280,24 @@ Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
     Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
     ray.members = members_of(view, entries, ray.entry.ground.xy);
     ray.view = view_through(pixel, ray.members, ndc);
-    ray.entry.distance = dot(ray.members, vec4(1.0)) / dot(ray.members, 1.0 / entries); // of a plane that is the middle's
+    ray.entry.distance = dot(ray.members, vec4(1.0)) /
+                         dot(ray.members, 1.0 / entries); // of a plane that is the middle's
     return ray;
 }
 
-// The ray to march after `ray`: of samples that have not entered yet (`entries`), else of the same through what comes behind.
+// The ray to march after `ray`: of samples that have not entered yet (`entries`), else of the same
+// through what comes behind.
 Ray ray_after(ivec2 pixel, Ray ray, MarchPath path, MarchWalk walk, vec4 scene, vec4 entries) {
     if (nearest_of(entries) >= kNever) {
         vec4 behind = scene * ray.members;
-        ray.entry = entry_after(ray.view, ray.entry, path, walk, max(max(behind.x, behind.y), max(behind.z, behind.w)));
+        ray.entry = entry_after(ray.view, ray.entry, path, walk,
+                                max(max(behind.x, behind.y), max(behind.z, behind.w)));
         return ray;
     }
     Ray next = nearest_ray(pixel, view_of(pixel, ndc), entries);
-    next.members = walk.layer < 0 ? next.members : max(next.members, ray.members); // what came through goes on to the same place
+    next.members = walk.layer < 0 ? next.members
+                                  : max(next.members,
+                                        ray.members); // what came through goes on to the same place
     return next;
 }
 #endif

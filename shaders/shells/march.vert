@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Out: a triangle over the whole screen, at a depth: that of one kind's pixels; and what the eye stands in.
+// Out: a triangle over the whole screen, at a depth: that of one kind's pixels; and what the eye
+// stands in.
 #define LAND_SMOOTH
 #include "lib/ground.glsl"
 #include "lib/sway.glsl"

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pixel's ray and where it enters the canopy: for the choice of its kind and for the march itself. SURFACE: the canopy of a mesh.
+// A pixel's ray and where it enters the canopy: for the choice of its kind and for the march
+// itself. SURFACE: the canopy of a mesh.
 #define LAND_SMOOTH
 #include "lib/ground.glsl"
 #include "shared/bend.h"
 #include "shared/lod.h"
 #include "shared/march_medium.h"
 
-layout(std140, binding = BIND_MARCH) uniform MarchBlock { MarchMedium medium; };
+layout(std140, binding = BIND_MARCH) uniform MarchBlock {
+    MarchMedium medium;
+};
 #include "shared/march.h"
 #include "shared/surface_chart.h"
 #ifndef SURFACE
@@ -22,11 +25,11 @@ flat in vec4 eye_air;
 
 const float kNever = 1e9;
 const float kFarthest = 1e6; // no place beyond is asked for (m)
-const float kLowPath = 3.0; // over ground within so many canopies' reach no curve is looked for
+const float kLowPath = 3.0;  // over ground within so many canopies' reach no curve is looked for
 
 struct View {
-    vec3 way;    // of the pixel's ray, unit
-    float axis;  // distance along the view axis for a metre of the ray
+    vec3 way;   // of the pixel's ray, unit
+    float axis; // distance along the view axis for a metre of the ray
     float dither;
 };
 
@@ -37,14 +40,15 @@ struct Entry {
     vec4 ground;    // slope (of a mesh: unused; room), density, tint
     vec4 air;       // wind, canopy_sway
 #ifndef SURFACE
-    float lying;    // factor on heights where stems lie (lying_height)
+    float lying;   // factor on heights where stems lie (lying_height)
     float aligned; // Sway's
 #endif
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
-    vec2 place;     // of the entry on its chart (m)
-    float bend;     // of the surface under the ray: half of the height's second derivative (1/m)
-    vec2 way_out;   // how far the ray's way through the canopy is, and how high over the ground it ends (m); 0: unknown
+    vec2 place;         // of the entry on its chart (m)
+    float bend;   // of the surface under the ray: half of the height's second derivative (1/m)
+    vec2 way_out; // how far the ray's way through the canopy is, and how high over the ground it
+                  // ends (m); 0: unknown
 #endif
 };
 
@@ -65,11 +69,14 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
-// Tracks and classes are finer than the vertices that the canopy's surface was drawn by, which know the wind alone and stand as high as the highest
-// class: the ray goes on down to the top of what stands where it is, or comes to the side of what stands beside it. `from`: height of its entry (m).
+// Tracks and classes are finer than the vertices that the canopy's surface was drawn by, which know
+// the wind alone and stand as high as the highest class: the ray goes on down to the top of what
+// stands where it is, or comes to the side of what stands beside it. `from`: height of its entry
+// (m).
 const int kTrackSteps = 4;
 const int kLandSteps = 10;
-const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of a long footprint is seen at once
+const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of
+                               // a long footprint is seen at once
 Entry entry_on_track(View view, Entry entry, float from) {
     float canopy = frame.canopy_m;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
@@ -86,7 +93,8 @@ Entry entry_on_track(View view, Entry entry, float from) {
         float width = entry.distance / frame.focal_px;
         entry.lying = land_height(at.xz, width);
         if (has_tracks()) {
-            track = track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
+            track = track_along(at.xz, width,
+                                view.way.xz * min(width / fall, kTrackReach * canopy / fall));
             entry.lying *= lying_height(track.lying);
         }
         entry.aligned = 1.0;
@@ -96,7 +104,9 @@ Entry entry_on_track(View view, Entry entry, float from) {
             return entry;
         }
         if (trodden) {
-            vec2 ahead = track_ahead(at.xz, width, kLeanHeight); // the canopy has one bend: that of the height which stands for it
+            vec2 ahead = track_ahead(
+                at.xz, width,
+                kLeanHeight); // the canopy has one bend: that of the height which stands for it
             if (dot(ahead, ahead) > 0.0) {
                 track.theta = track_at(at.xz + ahead, width).theta;
             }
@@ -104,8 +114,12 @@ Entry entry_on_track(View view, Entry entry, float from) {
             entry.air.xy = here.wind;
             entry.aligned = here.aligned;
         }
-        float over = entry.height - entry.lying * (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.response).y);
-        bool past = has_heights() && over < -0.1 * canopy && down > 0.1 * canopy; // in the side of something: back by half
+        float over =
+            entry.height -
+            entry.lying *
+                (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.response).y);
+        bool past = has_heights() && over < -0.1 * canopy &&
+                    down > 0.1 * canopy; // in the side of something: back by half
         if ((over < 0.02 * canopy && !past) || n == most - 1) {
             break;
         }
@@ -134,13 +148,16 @@ Entry entry_from_above(View view, ivec2 pixel) {
     float depth = texelFetch(canopy_depth, pixel, 0).r;
     float distance_m = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
     vec4 ground = texelFetch(canopy_ground, pixel, 0);
-    if (frame.mask_mode != kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
+    if (frame.mask_mode !=
+        kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
         vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
         ground.z = mask_density(xz, distance_m / frame.focal_px) * frame.density_scale;
     }
-    Entry entry = Entry(distance_m, frame.canopy_m, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
+    Entry entry =
+        Entry(distance_m, frame.canopy_m, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
     bool uneven = has_tracks() || has_heights();
-    return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy)) : entry;
+    return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy))
+                                         : entry;
 }
 
 Entry entry_of(View view, ivec2 pixel) {
@@ -166,7 +183,8 @@ MarchPath path_of(View view, Entry entry) {
     float most = 40.0 * canopy + 0.02 * entry.distance;
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
     float lying = 1.0;
-    if (has_tracks() || has_heights()) { // heights are counted as they were before the stems lay down
+    if (has_tracks() ||
+        has_heights()) { // heights are counted as they were before the stems lay down
         path.bend.xy *= entry.aligned;
         lying = entry.lying;
         height = min(entry.height / lying, path.bend.w);
@@ -174,7 +192,8 @@ MarchPath path_of(View view, Entry entry) {
         path.way.y /= lying;
         fall /= lying;
     }
-    path.height = vec4(height, fall, 0.0, 1.5 * reach + 0.1 * canopy); // beyond, the ground is another one
+    path.height =
+        vec4(height, fall, 0.0, 1.5 * reach + 0.1 * canopy); // beyond, the ground is another one
     if (reach > kLowPath * canopy) { // low over the ground: it curves under the ray
         vec2 ahead = at.xz + reach * view.way.xz;
         float rise = ground_at(ahead) - ground_at(at.xz) - dot(entry.ground.xy, ahead - at.xz);
@@ -183,7 +202,8 @@ MarchPath path_of(View view, Entry entry) {
     return path;
 }
 
-// May the ray leave the canopy through its top again? Where the ground falls away under it, or from within.
+// May the ray leave the canopy through its top again? Where the ground falls away under it, or from
+// within.
 bool at_crest(MarchPath path) {
     float a = path.height.y;
     return eye_place.x > 0.5 || a >= 0.0 || 4.0 * path.height.z * path.height.x > 0.5 * a * a;
@@ -213,14 +233,17 @@ float rise_at(Entry entry, View view) {
 // So far from the eye all blades are the near tier's (m).
 float near_reach() {
     float aside = distance(frame.lod_eye, frame.eye); // in tests alone
-    return frame.far_alone != 0 || frame.handover_mode == kHandoverOff ? 0.0 : max(frame.handover_band.x - aside, 0.0);
+    return frame.far_alone != 0 || frame.handover_mode == kHandoverOff
+               ? 0.0
+               : max(frame.handover_band.x - aside, 0.0);
 }
 
 #include "shells/march_land.glsl"
 
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
-    MarchPlan plan = march_look(path, vec3(1.0 / frame.focal_px, entry.distance, max(densest(view, entry, path), 0.002)));
+    MarchPlan plan = march_look(
+        path, vec3(1.0 / frame.focal_px, entry.distance, max(densest(view, entry, path), 0.002)));
     march_choose(plan, view.dither);
     return plan;
 }

@@ -4,8 +4,12 @@
 #include "lib/sway.glsl"
 
 layout(local_size_x = SAMPLE_GROUP) in;
-layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
-layout(std430, binding = BIND_BLOCK_SAMPLES) writeonly buffer Samples { BlockSample samples[]; };
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks {
+    TerrainBlock blocks[];
+};
+layout(std430, binding = BIND_BLOCK_SAMPLES) writeonly buffer Samples {
+    BlockSample samples[];
+};
 uniform int sample_count;
 
 void main() {
@@ -15,7 +19,8 @@ void main() {
     }
     TerrainBlock block = blocks[index / kBlockPosts];
     int post = index % kBlockPosts;
-    vec2 xz = block.corner + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.spacing_m;
+    vec2 xz =
+        block.corner + vec2(post % (kBlockCells + 1), post / (kBlockCells + 1)) * block.spacing_m;
     Ground ground = ground_surface(xz, block.spacing_m);
     vec2 slope = -ground.normal.xz / max(ground.normal.y, 0.1);
     float height = ground_at(xz);
@@ -26,5 +31,6 @@ void main() {
 #endif
     vec2 wind = wind_at(xz);
     vec4 swaying = sway_at(vec3(xz.x, height, xz.y), wind);
-    samples[index] = BlockSample(height, ground.density, dot(ground.normal, frame.light.to_sun), ground.tint, slope, wind, swaying.xy, swaying.zw);
+    samples[index] = BlockSample(height, ground.density, dot(ground.normal, frame.light.to_sun),
+                                 ground.tint, slope, wind, swaying.xy, swaying.zw);
 }

@@ -9,5 +9,6 @@ void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     // The post in this level's window that wraps onto this texel.
     ivec2 world = params.first + ((texel - params.first) & (kClipCells - 1));
-    imageStore(heights, texel, vec4(surface_height(vec2(world) * params.spacing_m, params.spacing_m)));
+    imageStore(heights, texel,
+               vec4(surface_height(vec2(world) * params.spacing_m, params.spacing_m)));
 }

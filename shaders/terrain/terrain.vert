@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: blocks of the clipmap (instances) and their samples. Out: the ground's vertices, anchor-relative.
+// In: blocks of the clipmap (instances) and their samples. Out: the ground's vertices,
+// anchor-relative.
 #include "lib/frame.glsl"
 
-layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks { TerrainBlock blocks[]; };
-layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples { BlockSample samples[]; };
+layout(std430, binding = BIND_TERRAIN_BLOCKS) readonly buffer Blocks {
+    TerrainBlock blocks[];
+};
+layout(std430, binding = BIND_BLOCK_SAMPLES) readonly buffer Samples {
+    BlockSample samples[];
+};
 
 out vec3 world;
 out vec2 sway;

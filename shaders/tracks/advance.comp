@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: changes of the blocks that move, the prints that touch them. Out: bends a step on, held where something touches them (C1, C4), and what
-// lies pressed. PRESS_ONLY: the latter alone, of blocks at rest. The twin is tracks::TrackTwin.
+// In: changes of the blocks that move, the prints that touch them. Out: bends a step on, held where
+// something touches them (C1, C4), and what lies pressed. PRESS_ONLY: the latter alone, of blocks
+// at rest. The twin is tracks::TrackTwin.
 #include "tracks/cells.glsl"
 
-layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints { TrackPrint prints[]; };
+layout(std430, binding = BIND_TRACK_PRINTS) readonly buffer TrackPrints {
+    TrackPrint prints[];
+};
 
 void main() {
     TrackBlock block = blocks[gl_WorkGroupID.z];

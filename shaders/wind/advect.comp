@@ -1,30 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: velocities of the last step (divergence-free), their vorticity, the ambient wind. Out: velocities carried along,
-// confined, diffused, dissipated, braked; at an open rim the ambient wind's (W2).
-// Back-tracing by the midpoint rule, cubic (Lagrange) interpolation held within what the 16 values around span: third order
-// in space where the flow is smooth, no new extremes where it is not.
-// What is carried is the velocity with half of the last pressure step already taken off; that half is given back at the end, and
-// the projection takes off the whole: pressure acts half before and half after, and the splitting loses no energy to first order.
+// In: velocities of the last step (divergence-free), their vorticity, the ambient wind. Out:
+// velocities carried along, confined, diffused, dissipated, braked; at an open rim the ambient
+// wind's (W2). Back-tracing by the midpoint rule, cubic (Lagrange) interpolation held within what
+// the 16 values around span: third order in space where the flow is smooth, no new extremes where
+// it is not. What is carried is the velocity with half of the last pressure step already taken off;
+// that half is given back at the end, and the projection takes off the whole: pressure acts half
+// before and half after, and the splitting loses no energy to first order.
 #include "wind/faces.glsl"
 
 layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
-layout(std430, binding = BIND_WIND_U_NEXT) writeonly buffer WindUNext { float u_next[]; };
-layout(std430, binding = BIND_WIND_V_NEXT) writeonly buffer WindVNext { float v_next[]; };
-layout(std430, binding = BIND_WIND_WEIGHTS) readonly buffer WindWeights { uint weights[]; };
-layout(std430, binding = BIND_WIND_LAST_PRESSURE) readonly buffer WindLastPressure { float pressure[]; };
+layout(std430, binding = BIND_WIND_U_NEXT) writeonly buffer WindUNext {
+    float u_next[];
+};
+layout(std430, binding = BIND_WIND_V_NEXT) writeonly buffer WindVNext {
+    float v_next[];
+};
+layout(std430, binding = BIND_WIND_WEIGHTS) readonly buffer WindWeights {
+    uint weights[];
+};
+layout(std430, binding = BIND_WIND_LAST_PRESSURE) readonly buffer WindLastPressure {
+    float pressure[];
+};
 #ifdef CONFINEMENT
-layout(std430, binding = BIND_WIND_VORTICITY) readonly buffer WindVorticity { float vorticity[]; };
+layout(std430, binding = BIND_WIND_VORTICITY) readonly buffer WindVorticity {
+    float vorticity[];
+};
 #endif
 #ifndef PERIODIC
 #include "lib/wind_field.glsl"
-layout(std140, binding = BIND_WIND_FIELD) uniform WindFieldBlock { WindField rim_field; };
+layout(std140, binding = BIND_WIND_FIELD) uniform WindFieldBlock {
+    WindField rim_field;
+};
 #endif
 
-const float kBrakeLength_m = 1.0; // what is faster than anything explains loses speed over this length
+const float kBrakeLength_m =
+    1.0; // what is faster than anything explains loses speed over this length
 
 // Columns and rows of a stencil that begins at logical cell `low`, as storage places.
 ivec2 stencil(ivec2 low, int k) {
-    return ivec2(stored_column(near_cell(low.x + k)), stored_row(near_cell(low.y + k)) * grid.cells);
+    return ivec2(stored_column(near_cell(low.x + k)),
+                 stored_row(near_cell(low.y + k)) * grid.cells);
 }
 
 // Velocity at a place (cells from the corner), bilinear.
@@ -33,9 +48,12 @@ vec2 velocity_at(vec2 place) {
     vec2 pv = place - vec2(0.5, 0.0);
     vec2 lu = floor(pu), lv = floor(pv);
     vec2 fu = pu - lu, fv = pv - lv;
-    ivec2 u0 = stencil(ivec2(lu), 0), u1 = stencil(ivec2(lu), 1), v0 = stencil(ivec2(lv), 0), v1 = stencil(ivec2(lv), 1);
-    float u = mix(mix(wind_u[u0.y + u0.x], wind_u[u0.y + u1.x], fu.x), mix(wind_u[u1.y + u0.x], wind_u[u1.y + u1.x], fu.x), fu.y);
-    float v = mix(mix(wind_v[v0.y + v0.x], wind_v[v0.y + v1.x], fv.x), mix(wind_v[v1.y + v0.x], wind_v[v1.y + v1.x], fv.x), fv.y);
+    ivec2 u0 = stencil(ivec2(lu), 0), u1 = stencil(ivec2(lu), 1), v0 = stencil(ivec2(lv), 0),
+          v1 = stencil(ivec2(lv), 1);
+    float u = mix(mix(wind_u[u0.y + u0.x], wind_u[u0.y + u1.x], fu.x),
+                  mix(wind_u[u1.y + u0.x], wind_u[u1.y + u1.x], fu.x), fu.y);
+    float v = mix(mix(wind_v[v0.y + v0.x], wind_v[v0.y + v1.x], fv.x),
+                  mix(wind_v[v1.y + v0.x], wind_v[v1.y + v1.x], fv.x), fv.y);
     return vec2(u, v);
 }
 
@@ -55,19 +73,25 @@ vec4 cubic_weights(float a) {
     return vec4(-a * c * d / 6.0, b * c * d / 2.0, -b * a * d / 2.0, b * a * c / 6.0);
 }
 
-#define CUBIC_AT(name, field)                                                                                                         \
-    float name(vec2 place) {                                                                                                          \
-        vec2 low = floor(place);                                                                                                      \
-        ivec2 first = ivec2(low) - 1;                                                                                                 \
-        ivec2 s0 = stencil(first, 0), s1 = stencil(first, 1), s2 = stencil(first, 2), s3 = stencil(first, 3);                         \
-        vec4 wx = cubic_weights(place.x - low.x), wy = cubic_weights(place.y - low.y);                                                \
-        vec4 r0 = vec4(field[s0.y + s0.x], field[s0.y + s1.x], field[s0.y + s2.x], field[s0.y + s3.x]);                               \
-        vec4 r1 = vec4(field[s1.y + s0.x], field[s1.y + s1.x], field[s1.y + s2.x], field[s1.y + s3.x]);                               \
-        vec4 r2 = vec4(field[s2.y + s0.x], field[s2.y + s1.x], field[s2.y + s2.x], field[s2.y + s3.x]);                               \
-        vec4 r3 = vec4(field[s3.y + s0.x], field[s3.y + s1.x], field[s3.y + s2.x], field[s3.y + s3.x]);                               \
-        vec4 low4 = min(min(r0, r1), min(r2, r3)), high4 = max(max(r0, r1), max(r2, r3));                                             \
-        float value = dot(vec4(dot(r0, wx), dot(r1, wx), dot(r2, wx), dot(r3, wx)), wy);                                              \
-        return clamp(value, min(min(low4.x, low4.y), min(low4.z, low4.w)), max(max(high4.x, high4.y), max(high4.z, high4.w)));        \
+#define CUBIC_AT(name, field)                                                                      \
+    float name(vec2 place) {                                                                       \
+        vec2 low = floor(place);                                                                   \
+        ivec2 first = ivec2(low) - 1;                                                              \
+        ivec2 s0 = stencil(first, 0), s1 = stencil(first, 1), s2 = stencil(first, 2),              \
+              s3 = stencil(first, 3);                                                              \
+        vec4 wx = cubic_weights(place.x - low.x), wy = cubic_weights(place.y - low.y);             \
+        vec4 r0 =                                                                                  \
+            vec4(field[s0.y + s0.x], field[s0.y + s1.x], field[s0.y + s2.x], field[s0.y + s3.x]);  \
+        vec4 r1 =                                                                                  \
+            vec4(field[s1.y + s0.x], field[s1.y + s1.x], field[s1.y + s2.x], field[s1.y + s3.x]);  \
+        vec4 r2 =                                                                                  \
+            vec4(field[s2.y + s0.x], field[s2.y + s1.x], field[s2.y + s2.x], field[s2.y + s3.x]);  \
+        vec4 r3 =                                                                                  \
+            vec4(field[s3.y + s0.x], field[s3.y + s1.x], field[s3.y + s2.x], field[s3.y + s3.x]);  \
+        vec4 low4 = min(min(r0, r1), min(r2, r3)), high4 = max(max(r0, r1), max(r2, r3));          \
+        float value = dot(vec4(dot(r0, wx), dot(r1, wx), dot(r2, wx), dot(r3, wx)), wy);           \
+        return clamp(value, min(min(low4.x, low4.y), min(low4.z, low4.w)),                         \
+                     max(max(high4.x, high4.y), max(high4.z, high4.w)));                           \
     }
 CUBIC_AT(cubic_u, wind_u)
 CUBIC_AT(cubic_v, wind_v)
@@ -77,8 +101,9 @@ float spin(ivec2 corner) {
     return vorticity[near_index(corner)];
 }
 
-// f = eps h (N x omega), N = grad |omega| / |grad |omega|| (W2). A force that follows |omega| omega would need no unit of eps, but
-// outruns what the advection smooths: it ends in noise. x at the west face, z at the north face of cell c.
+// f = eps h (N x omega), N = grad |omega| / |grad |omega|| (W2). A force that follows |omega| omega
+// would need no unit of eps, but outruns what the advection smooths: it ends in noise. x at the
+// west face, z at the north face of cell c.
 vec2 confinement(ivec2 c) {
     float nw = spin(c), sw = spin(c + ivec2(0, 1)), ne = spin(c + ivec2(1, 0));
     float west = abs(spin(c + ivec2(-1, 0))) + abs(spin(c + ivec2(-1, 1)));
@@ -135,15 +160,20 @@ void main() {
 #endif
     ivec2 inner = c - grid.inner_first;
     if (all(greaterThanEqual(inner, ivec2(0))) && all(lessThan(inner, ivec2(grid.inner_cells)))) {
-        // Towards the rim a face is open by 2 and pressure behind it is 0; of the far rim's faces no half was taken.
+        // Towards the rim a face is open by 2 and pressure behind it is 0; of the far rim's faces
+        // no half was taken.
         uint open = weights[own];
         float here = pressure[own];
-        u += 0.5 * float(open & 255u) / 64.0 * (here - (inner.x == 0 && west_is_rim() ? 0.0 : pressure[west]));
-        v += 0.5 * float((open >> 16u) & 255u) / 64.0 * (here - (inner.y == 0 && west_is_rim() ? 0.0 : pressure[north]));
+        u += 0.5 * float(open & 255u) / 64.0 *
+             (here - (inner.x == 0 && west_is_rim() ? 0.0 : pressure[west]));
+        v += 0.5 * float((open >> 16u) & 255u) / 64.0 *
+             (here - (inner.y == 0 && west_is_rim() ? 0.0 : pressure[north]));
     }
     if (grid.diffusion > 0.0) { // explicit: Fluid keeps this number where it is stable
-        u += grid.diffusion * (wind_u[west] + wind_u[east] + wind_u[north] + wind_u[south] - 4.0 * u0);
-        v += grid.diffusion * (wind_v[west] + wind_v[east] + wind_v[north] + wind_v[south] - 4.0 * v0);
+        u += grid.diffusion *
+             (wind_u[west] + wind_u[east] + wind_u[north] + wind_u[south] - 4.0 * u0);
+        v += grid.diffusion *
+             (wind_v[west] + wind_v[east] + wind_v[north] + wind_v[south] - 4.0 * v0);
     }
     u = brake(dissipated(u, grid.mean.x), length(vec2(u, at_u.y)));
     v = brake(dissipated(v, grid.mean.y), length(vec2(at_v.x, v)));

@@ -3,7 +3,9 @@
 #include "wind/faces.glsl"
 
 layout(local_size_x = WIND_SOLVE_GROUP) in;
-layout(std430, binding = BIND_WIND_TOTALS) writeonly buffer WindTotals { float totals[]; };
+layout(std430, binding = BIND_WIND_TOTALS) writeonly buffer WindTotals {
+    float totals[];
+};
 
 shared vec3 sums[WIND_SOLVE_GROUP];
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Consumes the forces that touch each tile. Produces velocities nearer to what they want (methods.md W5, J4, C5), or with INFLOW the
-// divergence that they bring. One invocation a cell, forces in one order: the same bits on every run.
+// Consumes the forces that touch each tile. Produces velocities nearer to what they want
+// (methods.md W5, J4, C5), or with INFLOW the divergence that they bring. One invocation a cell,
+// forces in one order: the same bits on every run.
 #include "wind/grid.glsl"
 #include "shared/wind_force.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The staggered grid of the wind passes. Logical cells run from (0, 0), the window's north-west corner; storage is toroidal.
-// u lies on the west face of its cell, v on the north face. Window places are metres from the north-west corner.
+// The staggered grid of the wind passes. Logical cells run from (0, 0), the window's north-west
+// corner; storage is toroidal. u lies on the west face of its cell, v on the north face. Window
+// places are metres from the north-west corner.
 #include "shared/bindings.h"
 #include "shared/wind_grid.h"
 
@@ -51,5 +52,8 @@ vec2 north_face(ivec2 logical) { // where v(logical) lies
 
 // What no cell may exceed; what is no number is calm.
 float sane(float speed) {
-    return abs(speed) <= kWindCeiling_mps ? speed : speed > 0.0 ? kWindCeiling_mps : speed < 0.0 ? -kWindCeiling_mps : 0.0;
+    return abs(speed) <= kWindCeiling_mps ? speed
+           : speed > 0.0                  ? kWindCeiling_mps
+           : speed < 0.0                  ? -kWindCeiling_mps
+                                          : 0.0;
 }

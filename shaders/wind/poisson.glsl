@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Poisson equation of the projection on the levels of the multigrid: sum over faces of w (phi_neighbour - phi) = rhs, lengths
-// counted in cells of the level. w is the open share of a face: 0 at a solid, 1 in the air, 2 towards the open rim, where phi is 0 on
-// the face itself, half a cell away. Level 0 is stored toroidally, the others plainly.
+// The Poisson equation of the projection on the levels of the multigrid: sum over faces of w
+// (phi_neighbour - phi) = rhs, lengths counted in cells of the level. w is the open share of a
+// face: 0 at a solid, 1 in the air, 2 towards the open rim, where phi is 0 on the face itself, half
+// a cell away. Level 0 is stored toroidally, the others plainly.
 #include "wind/grid.glsl"
 
-layout(std430, binding = BIND_WIND_PHI) buffer WindPhi { float phi[]; };
-layout(std430, binding = BIND_WIND_RHS) buffer WindRhs { float rhs[]; };
-layout(std430, binding = BIND_WIND_WEIGHTS) buffer WindWeights { uint weights[]; };
+layout(std430, binding = BIND_WIND_PHI) buffer WindPhi {
+    float phi[];
+};
+layout(std430, binding = BIND_WIND_RHS) buffer WindRhs {
+    float rhs[];
+};
+layout(std430, binding = BIND_WIND_WEIGHTS) buffer WindWeights {
+    uint weights[];
+};
 layout(location = 0) uniform int level;
 
 const float kWeightUnit = 64.0; // a byte of this is an open face
@@ -43,7 +50,8 @@ bool beyond(int l, ivec2 c) {
 
 // Weights of the faces west, east, north, south.
 vec4 unpack_weights(uint bytes) {
-    return vec4(bytes & 255u, (bytes >> 8u) & 255u, (bytes >> 16u) & 255u, bytes >> 24u) / kWeightUnit;
+    return vec4(bytes & 255u, (bytes >> 8u) & 255u, (bytes >> 16u) & 255u, bytes >> 24u) /
+           kWeightUnit;
 }
 uint pack_weights(vec4 w) {
     uvec4 b = uvec4(w * kWeightUnit + 0.5);
@@ -55,11 +63,12 @@ float phi_at(ivec2 c) {
     return beyond(level, c) ? 0.0 : value;
 }
 vec4 phi_around(ivec2 c) {
-    return vec4(phi_at(c - ivec2(1, 0)), phi_at(c + ivec2(1, 0)), phi_at(c - ivec2(0, 1)), phi_at(c + ivec2(0, 1)));
+    return vec4(phi_at(c - ivec2(1, 0)), phi_at(c + ivec2(1, 0)), phi_at(c - ivec2(0, 1)),
+                phi_at(c + ivec2(0, 1)));
 }
 
-// What a cell's own value counts in its equation. A coarse cell that walls leave with little more than cracks is held back: it
-// would overshoot.
+// What a cell's own value counts in its equation. A coarse cell that walls leave with little more
+// than cracks is held back: it would overshoot.
 float own_weight(vec4 w) {
     return max(w.x + w.y + w.z + w.w, 1.0);
 }
@@ -69,8 +78,10 @@ float relaxed(vec4 w, vec4 around, float right) {
     return w == vec4(0.0) ? 0.0 : (dot(w, around) - right) / own_weight(w);
 }
 
-// The coarse cell that a fine cell gives its residual to and takes its correction from: its parent, but where a wall that the coarse
-// level moved to the parent's far side cuts it off from that, the next one.
+// The coarse cell that a fine cell gives its residual to and takes its correction from: its parent,
+// but where a wall that the coarse level moved to the parent's far side cuts it off from that, the
+// next one.
 ivec2 source_of(ivec2 c, vec4 w) {
-    return (c >> 1) + ivec2((c.x & 1) != 0 && w.x == 0.0 && w.y > 0.0, (c.y & 1) != 0 && w.z == 0.0 && w.w > 0.0);
+    return (c >> 1) + ivec2((c.x & 1) != 0 && w.x == 0.0 && w.y > 0.0,
+                            (c.y & 1) != 0 && w.z == 0.0 && w.w > 0.0);
 }

@@ -17,7 +17,8 @@ void main() {
     int own = element(level, c);
     vec4 around = vec4(0.0);
     if (((c.x + c.y) & 1) != 0) {
-        around = vec4(red_at(c - ivec2(1, 0)), red_at(c + ivec2(1, 0)), red_at(c - ivec2(0, 1)), red_at(c + ivec2(0, 1)));
+        around = vec4(red_at(c - ivec2(1, 0)), red_at(c + ivec2(1, 0)), red_at(c - ivec2(0, 1)),
+                      red_at(c + ivec2(0, 1)));
     }
     phi[own] = relaxed(unpack_weights(weights[own]), around, rhs[own]);
 }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: residual, its correction by the multigrid, the last product. Out: sums of correction * residual and correction * product.
+// In: residual, its correction by the multigrid, the last product. Out: sums of correction *
+// residual and correction * product.
 #include "wind/poisson.glsl"
 #include "wind/sums.glsl"
 
 layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
-layout(std430, binding = BIND_WIND_PRODUCT) readonly buffer WindProduct { float product[]; };
+layout(std430, binding = BIND_WIND_PRODUCT) readonly buffer WindProduct {
+    float product[];
+};
 
 void main() {
     ivec2 c = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: a level after a red-black sweep. Out: the right side of the coarser one: the sum of four residuals, of which the two black
-// ones are 0.
+// In: a level after a red-black sweep. Out: the right side of the coarser one: the sum of four
+// residuals, of which the two black ones are 0.
 #include "wind/poisson.glsl"
 
 layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
@@ -23,7 +23,8 @@ void main() {
     ivec2 f = 2 * c;
     float sum = residual(f, c) + residual(f + 1, c);
     vec4 w = unpack_weights(weights[own]);
-    if (w.x < 1.0 && c.x > 0) { // cells cut off from their parents by a wall at our west side, and the like
+    if (w.x < 1.0 &&
+        c.x > 0) { // cells cut off from their parents by a wall at our west side, and the like
         sum += residual(f + ivec2(-1, 1), c);
     }
     if (w.z < 1.0 && c.y > 0) {

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: sums of workgroups. Out: conjugate gradients' next factor: beta (colour 0) after the dots, alpha (colour 1) after the direction.
-// Flexible beta (Polak and Ribiere): the multigrid is no symmetric operator.
+// In: sums of workgroups. Out: conjugate gradients' next factor: beta (colour 0) after the dots,
+// alpha (colour 1) after the direction. Flexible beta (Polak and Ribiere): the multigrid is no
+// symmetric operator.
 #include "shared/bindings.h"
 
 layout(local_size_x = WIND_SOLVE_GROUP) in;
-layout(std430, binding = BIND_WIND_PARTIALS) readonly buffer WindPartials { vec2 partials[]; };
-layout(std430, binding = BIND_WIND_SCALARS) buffer WindScalars { float scalars[]; };
+layout(std430, binding = BIND_WIND_PARTIALS) readonly buffer WindPartials {
+    vec2 partials[];
+};
+layout(std430, binding = BIND_WIND_SCALARS) buffer WindScalars {
+    float scalars[];
+};
 layout(location = 0) uniform int groups;
 layout(location = 1) uniform int colour;
 

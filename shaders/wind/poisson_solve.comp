@@ -28,9 +28,11 @@ void main() {
             ivec2 c = ivec2(i % n, i / n);
             if (((c.x + c.y + half_sweep) & 1) == 0) {
                 int own = element(level, c);
-                vec4 around = vec4(value_at(c - ivec2(1, 0)), value_at(c + ivec2(1, 0)), value_at(c - ivec2(0, 1)), value_at(c + ivec2(0, 1)));
+                vec4 around = vec4(value_at(c - ivec2(1, 0)), value_at(c + ivec2(1, 0)),
+                                   value_at(c - ivec2(0, 1)), value_at(c + ivec2(0, 1)));
                 float old = value[i];
-                value[i] = old + over * (relaxed(unpack_weights(weights[own]), around, rhs[own]) - old);
+                value[i] =
+                    old + over * (relaxed(unpack_weights(weights[own]), around, rhs[own]) - old);
             }
         }
         barrier();

@@ -15,8 +15,9 @@ vec4 fine_weights(ivec2 c) {
     return unpack_weights(weights[element(level - 1, held(level - 1, c))]);
 }
 
-// A coarse face in one row of finer ones: the one that lies on it. Where that one is open and a wall only closes the one before (an
-// inner face of the coarse cell to the west or north), the coarse face closes in its place: no wall is lost, however thin.
+// A coarse face in one row of finer ones: the one that lies on it. Where that one is open and a
+// wall only closes the one before (an inner face of the coarse cell to the west or north), the
+// coarse face closes in its place: no wall is lost, however thin.
 float in_row(float face, float before, float before_that) {
     return before == 0.0 && before_that > 0.0 ? 0.0 : face;
 }
@@ -30,22 +31,26 @@ float north_of(ivec2 c) {
 
 float west_face_of(ivec2 c) { // of the coarse cell that begins with fine cell c
     float first = in_row(fine_weights(c).x, west_of(c - ivec2(1, 0)), west_of(c - ivec2(2, 0)));
-    float second = in_row(fine_weights(c + ivec2(0, 1)).x, west_of(c + ivec2(-1, 1)), west_of(c + ivec2(-2, 1)));
+    float second = in_row(fine_weights(c + ivec2(0, 1)).x, west_of(c + ivec2(-1, 1)),
+                          west_of(c + ivec2(-2, 1)));
     return 0.5 * (first + second);
 }
 float east_face_of(ivec2 c) {
     float first = in_row(fine_weights(c + ivec2(1, 0)).y, west_of(c + ivec2(1, 0)), west_of(c));
-    float second = in_row(fine_weights(c + ivec2(1, 1)).y, west_of(c + ivec2(1, 1)), west_of(c + ivec2(0, 1)));
+    float second =
+        in_row(fine_weights(c + ivec2(1, 1)).y, west_of(c + ivec2(1, 1)), west_of(c + ivec2(0, 1)));
     return 0.5 * (first + second);
 }
 float north_face_of(ivec2 c) {
     float first = in_row(fine_weights(c).z, north_of(c - ivec2(0, 1)), north_of(c - ivec2(0, 2)));
-    float second = in_row(fine_weights(c + ivec2(1, 0)).z, north_of(c + ivec2(1, -1)), north_of(c + ivec2(1, -2)));
+    float second = in_row(fine_weights(c + ivec2(1, 0)).z, north_of(c + ivec2(1, -1)),
+                          north_of(c + ivec2(1, -2)));
     return 0.5 * (first + second);
 }
 float south_face_of(ivec2 c) {
     float first = in_row(fine_weights(c + ivec2(0, 1)).w, north_of(c + ivec2(0, 1)), north_of(c));
-    float second = in_row(fine_weights(c + ivec2(1, 1)).w, north_of(c + ivec2(1, 1)), north_of(c + ivec2(1, 0)));
+    float second = in_row(fine_weights(c + ivec2(1, 1)).w, north_of(c + ivec2(1, 1)),
+                          north_of(c + ivec2(1, 0)));
     return 0.5 * (first + second);
 }
 
@@ -56,11 +61,13 @@ void main() {
     }
     int own = element(level, c);
     if (level == 0) {
-        vec4 w = vec4(open_face(c, c - ivec2(1, 0)), open_face(c, c + ivec2(1, 0)), open_face(c, c - ivec2(0, 1)), open_face(c, c + ivec2(0, 1)));
+        vec4 w = vec4(open_face(c, c - ivec2(1, 0)), open_face(c, c + ivec2(1, 0)),
+                      open_face(c, c - ivec2(0, 1)), open_face(c, c + ivec2(0, 1)));
         bool solid = grid.has_solids != 0 && wind_solid[own] != 0u;
         weights[own] = solid ? 0u : pack_weights(w);
     } else {
         ivec2 f = 2 * c;
-        weights[own] = pack_weights(vec4(west_face_of(f), east_face_of(f), north_face_of(f), south_face_of(f)));
+        weights[own] = pack_weights(
+            vec4(west_face_of(f), east_face_of(f), north_face_of(f), south_face_of(f)));
     }
 }

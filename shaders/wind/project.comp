@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// In: velocities after the forces, pressure. Out: velocities without divergence, on the faces of solids exactly the solid's; and
-// those that the next advection carries, with half of this pressure step taken off once more.
+// In: velocities after the forces, pressure. Out: velocities without divergence, on the faces of
+// solids exactly the solid's; and those that the next advection carries, with half of this pressure
+// step taken off once more.
 #include "wind/faces.glsl"
 #include "wind/poisson.glsl"
 #include "wind/solids.glsl"
 
 layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
-layout(std430, binding = BIND_WIND_PRESSURE) readonly buffer WindPressure { float pressure[]; };
-layout(std430, binding = BIND_WIND_U_CARRIED) writeonly buffer WindUCarried { float u_carried[]; };
-layout(std430, binding = BIND_WIND_V_CARRIED) writeonly buffer WindVCarried { float v_carried[]; };
+layout(std430, binding = BIND_WIND_PRESSURE) readonly buffer WindPressure {
+    float pressure[];
+};
+layout(std430, binding = BIND_WIND_U_CARRIED) writeonly buffer WindUCarried {
+    float u_carried[];
+};
+layout(std430, binding = BIND_WIND_V_CARRIED) writeonly buffer WindVCarried {
+    float v_carried[];
+};
 
 // Pressure at a solved cell, 0 in the rim.
 float pressure_of(ivec2 c) {
@@ -25,7 +32,8 @@ void main() {
     int own = cell_index(c);
     int west = near_index(c - ivec2(1, 0)), north = near_index(c - ivec2(0, 1));
     ivec2 inner = c - grid.inner_first;
-    bvec2 within = bvec2(inner.x >= 0 && inner.x < grid.inner_cells, inner.y >= 0 && inner.y < grid.inner_cells);
+    bvec2 within = bvec2(inner.x >= 0 && inner.x < grid.inner_cells,
+                         inner.y >= 0 && inner.y < grid.inner_cells);
     float u = sane(wind_u[own]), v = sane(wind_v[own]);
     float here = pressure_of(c);
     vec2 half_step = vec2(0.0);

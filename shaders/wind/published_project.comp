@@ -3,7 +3,9 @@
 #include "wind/faces.glsl"
 
 layout(local_size_x = WIND_GROUP_X, local_size_y = WIND_GROUP_Y) in;
-layout(std430, binding = BIND_WIND_PRESSURE) readonly buffer WindPressure { float pressure[]; };
+layout(std430, binding = BIND_WIND_PRESSURE) readonly buffer WindPressure {
+    float pressure[];
+};
 
 void main() {
     ivec2 c = ivec2(gl_GlobalInvocationID.xy);

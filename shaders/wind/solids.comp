@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Consumes the obstacles that touch each tile. Produces the solid mask and the solids' velocity of its cells (methods.md W2); cells of
-// other tiles were cleared to air. A cell is what its centre is; of several solids the last in the scene counts.
+// Consumes the obstacles that touch each tile. Produces the solid mask and the solids' velocity of
+// its cells (methods.md W2); cells of other tiles were cleared to air. A cell is what its centre
+// is; of several solids the last in the scene counts.
 #include "wind/grid.glsl"
 #include "shared/wind_solid.h"
 

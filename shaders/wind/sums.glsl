@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A sum over all cells in one order: here a workgroup's share, in poisson_scalars.comp the rest.
-layout(std430, binding = BIND_WIND_PARTIALS) buffer WindPartials { vec2 partials[]; };
+layout(std430, binding = BIND_WIND_PARTIALS) buffer WindPartials {
+    vec2 partials[];
+};
 
 shared vec2 sums[WIND_GROUP_X * WIND_GROUP_Y];
 

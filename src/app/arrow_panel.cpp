@@ -18,13 +18,14 @@ namespace {
 using scene::ArrowEnd;
 using scene::ArrowHandle;
 
-constexpr double kReach_m = 2000;    // of a click
-constexpr double kGrab_px = 12;      // around a point
-constexpr double kAbove_m = 0.4;     // arrows float over the grass
-constexpr int kPieces = 12;          // of a shaft, so that it follows the ground
+constexpr double kReach_m = 2000; // of a click
+constexpr double kGrab_px = 12;   // around a point
+constexpr double kAbove_m = 0.4;  // arrows float over the grass
+constexpr int kPieces = 12;       // of a shaft, so that it follows the ground
 constexpr int kCirclePieces = 48;
-constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 150), kIdle = IM_COL32(190, 200, 210, 255), kBlowing = IM_COL32(255, 205, 60, 255),
-                kSelected = IM_COL32(255, 120, 40, 255), kPending = IM_COL32(120, 255, 140, 255);
+constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 150), kIdle = IM_COL32(190, 200, 210, 255),
+                kBlowing = IM_COL32(255, 205, 60, 255), kSelected = IM_COL32(255, 120, 40, 255),
+                kPending = IM_COL32(120, 255, 140, 255);
 
 glm::dvec3 lifted(const Land& land, glm::dvec2 at) {
     return {at.x, land.height(at.x, at.y) + kAbove_m, at.y};
@@ -35,7 +36,8 @@ ImVec2 as_im(glm::dvec2 v) {
 }
 
 /// A line over the ground from point to point, with a dark rim that shows on grass and sky alike.
-void draw_path(ImDrawList& list, const Eye& eye, const std::vector<glm::dvec3>& points, ImU32 colour, float width) {
+void draw_path(ImDrawList& list, const Eye& eye, const std::vector<glm::dvec3>& points,
+               ImU32 colour, float width) {
     for (const auto& [ink, wide] : {std::pair(kOutline, width + 2.5f), std::pair(colour, width)}) {
         std::optional<glm::dvec2> before;
         for (const glm::dvec3& point : points) {
@@ -47,10 +49,12 @@ void draw_path(ImDrawList& list, const Eye& eye, const std::vector<glm::dvec3>& 
     }
 }
 
-void draw_shaft(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow, ImU32 colour) {
+void draw_shaft(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow,
+                ImU32 colour) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i <= kPieces; ++i)
-        points.push_back(lifted(land, glm::mix(arrow.root, arrow.tip, static_cast<double>(i) / kPieces)));
+        points.push_back(
+            lifted(land, glm::mix(arrow.root, arrow.tip, static_cast<double>(i) / kPieces)));
     draw_path(list, eye, points, colour, 3);
     // The head lies on the ground too; its size is the arrow's, but never more than a few metres.
     const glm::dvec2 along = glm::normalize(arrow.tip - arrow.root), across(-along.y, along.x);
@@ -61,16 +65,19 @@ void draw_shaft(ImDrawList& list, const Eye& eye, const Land& land, const scene:
               colour, 3);
 }
 
-void draw_circle(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow, ImU32 colour) {
+void draw_circle(ImDrawList& list, const Eye& eye, const Land& land, const scene::WindArrow& arrow,
+                 ImU32 colour) {
     std::vector<glm::dvec3> points;
     for (int i = 0; i <= kCirclePieces; ++i) {
         const double angle = 6.283185307 * i / kCirclePieces;
-        points.push_back(lifted(land, arrow.tip + glm::dvec2(std::cos(angle), std::sin(angle)) * arrow.radius_m));
+        points.push_back(lifted(land, arrow.tip + glm::dvec2(std::cos(angle), std::sin(angle)) *
+                                                      arrow.radius_m));
     }
     draw_path(list, eye, points, (colour & 0x00ffffffU) | 0x90000000U, 1.5f);
 }
 
-void draw_point(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 at, ImU32 colour, float radius) {
+void draw_point(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 at, ImU32 colour,
+                float radius) {
     if (const auto pixel = eye.pixel(lifted(land, at))) {
         list.AddCircleFilled(as_im(*pixel), radius + 1.5f, kOutline);
         list.AddCircleFilled(as_im(*pixel), radius, colour);
@@ -78,18 +85,22 @@ void draw_point(ImDrawList& list, const Eye& eye, const Land& land, glm::dvec2 a
 }
 
 /// Slider and number for one value; changes of one drag are one step to undo.
-bool edit_number(scene::ArrowEdit& edit, const char* label, double& value, double least, double most, const char* format) {
+bool edit_number(scene::ArrowEdit& edit, const char* label, double& value, double least,
+                 double most, const char* format) {
     ImGui::PushID(label);
     ImGui::SetNextItemWidth(130);
-    bool changed = ImGui::SliderScalar("##slider", ImGuiDataType_Double, &value, &least, &most, format,
-                                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    bool changed =
+        ImGui::SliderScalar("##slider", ImGuiDataType_Double, &value, &least, &most, format,
+                            ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     if (ImGui::IsItemActivated())
         edit.begin();
     if (ImGui::IsItemDeactivated())
         edit.end();
     ImGui::SameLine();
     ImGui::SetNextItemWidth(70);
-    changed = ImGui::InputDouble(label, &value, 0, 0, format, ImGuiInputTextFlags_EnterReturnsTrue) || changed;
+    changed =
+        ImGui::InputDouble(label, &value, 0, 0, format, ImGuiInputTextFlags_EnterReturnsTrue) ||
+        changed;
     ImGui::PopID();
     return changed;
 }
@@ -225,7 +236,9 @@ void ArrowPanel::draw_arrows(const Eye& eye, const Land& land, double time_s) co
     for (std::size_t i = 0; i < edit_.arrows().size(); ++i) {
         const scene::WindArrow& arrow = edit_.arrows()[i];
         const bool blowing = time_s >= spans[i].start_s && time_s < spans[i].end_s;
-        const ImU32 colour = selected_ && selected_->arrow == i ? kSelected : blowing ? kBlowing : kIdle;
+        const ImU32 colour = selected_ && selected_->arrow == i ? kSelected
+                             : blowing                          ? kBlowing
+                                                                : kIdle;
         draw_circle(list, eye, land, arrow, colour);
         draw_shaft(list, eye, land, arrow, colour);
     }
@@ -233,7 +246,10 @@ void ArrowPanel::draw_arrows(const Eye& eye, const Land& land, double time_s) co
         for (const ArrowEnd end : {ArrowEnd::kRoot, ArrowEnd::kTip}) {
             const ArrowHandle handle{i, end};
             const bool hot = hovered_ == handle, chosen = selected_ == handle;
-            draw_point(list, eye, land, edit_.place(handle), chosen ? kSelected : hot ? IM_COL32_WHITE : kIdle,
+            draw_point(list, eye, land, edit_.place(handle),
+                       chosen ? kSelected
+                       : hot  ? IM_COL32_WHITE
+                              : kIdle,
                        hot || chosen ? 7.0f : 4.5f);
         }
     if (root_) {
@@ -250,9 +266,10 @@ void ArrowPanel::draw_arrows(const Eye& eye, const Land& land, double time_s) co
 void ArrowPanel::draw_selected() {
     const std::size_t at = selected_->arrow;
     const scene::WindArrow& arrow = edit_.arrows()[at];
-    ImGui::Text("%s%s%s", arrow.id.c_str(), arrow.parent.empty() ? "" : "  continues ", arrow.parent.c_str());
-    ImGui::TextDisabled("root %.2f, %.2f   tip %.2f, %.2f   %.2f m", arrow.root.x, arrow.root.y, arrow.tip.x, arrow.tip.y,
-                        glm::distance(arrow.root, arrow.tip));
+    ImGui::Text("%s%s%s", arrow.id.c_str(), arrow.parent.empty() ? "" : "  continues ",
+                arrow.parent.c_str());
+    ImGui::TextDisabled("root %.2f, %.2f   tip %.2f, %.2f   %.2f m", arrow.root.x, arrow.root.y,
+                        arrow.tip.x, arrow.tip.y, glm::distance(arrow.root, arrow.tip));
     double strength = arrow.strength_mps, radius = arrow.radius_m;
     if (edit_number(edit_, "strength, m/s", strength, 0.0, 60.0, "%.2f"))
         edit_.set_strength(at, strength);
@@ -260,7 +277,9 @@ void ArrowPanel::draw_selected() {
         edit_.set_radius(at, radius);
     const wind::Span span = wind::arrow_spans(edit_.arrows())[at];
     if (std::isfinite(span.start_s))
-        ImGui::Text("blows from %.2f s%s", span.start_s, std::isfinite(span.end_s) ? fmt::format(" to {:.2f} s", span.end_s).c_str() : "");
+        ImGui::Text("blows from %.2f s%s", span.start_s,
+                    std::isfinite(span.end_s) ? fmt::format(" to {:.2f} s", span.end_s).c_str()
+                                              : "");
     else
         ImGui::TextUnformatted("never blows: an arrow before it has no strength");
     if (ImGui::Button("delete"))
@@ -274,7 +293,8 @@ void ArrowPanel::draw_inspector(double time_s) {
     const ImVec2 size = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos({size.x - 10, 10}, ImGuiCond_FirstUseEver, {1, 0});
     if (ImGui::Begin("Arrows", &shown, ImGuiWindowFlags_AlwaysAutoResize)) {
-        ImGui::Text("%d arrows%s, t %.1f s", static_cast<int>(edit_.arrows().size()), edit_.unsaved() ? ", not saved" : "", time_s);
+        ImGui::Text("%d arrows%s, t %.1f s", static_cast<int>(edit_.arrows().size()),
+                    edit_.unsaved() ? ", not saved" : "", time_s);
         ImGui::Separator();
         if (selected_ && selected_->arrow < edit_.arrows().size())
             draw_selected();

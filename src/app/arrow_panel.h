@@ -12,17 +12,19 @@
 
 namespace sward::app {
 
-/// The arrow editor of the viewer: ImGui and the mouse around scene::ArrowEdit. A click on the ground sets a root, the next its tip;
-/// shift and a click continue the selected arrow; a drag moves a point.
+/// The arrow editor of the viewer: ImGui and the mouse around scene::ArrowEdit. A click on the
+/// ground sets a root, the next its tip; shift and a click continue the selected arrow; a drag
+/// moves a point.
 class ArrowPanel {
 public:
     /// `file` is where it saves to.
-    ArrowPanel(std::vector<scene::WindArrow> arrows, std::filesystem::path file) : edit_(std::move(arrows)), told_(edit_.arrows()), file_(std::move(file)) {}
+    ArrowPanel(std::vector<scene::WindArrow> arrows, std::filesystem::path file)
+        : edit_(std::move(arrows)), told_(edit_.arrows()), file_(std::move(file)) {}
 
     /// What keys ask for, while it is shown.
     void act(const Input& input);
-    /// Draws arrows and inspector and takes the mouse, within an ImGui frame. Returns whether the arrows have changed since it
-    /// last said so.
+    /// Draws arrows and inspector and takes the mouse, within an ImGui frame. Returns whether the
+    /// arrows have changed since it last said so.
     bool draw(const Eye& eye, const Land& land, double time_s);
     [[nodiscard]] const std::vector<scene::WindArrow>& arrows() const { return edit_.arrows(); }
 
@@ -37,7 +39,8 @@ private:
     void erase_selected(bool branch);
     void forget_what_is_gone();
     void save();
-    [[nodiscard]] std::optional<scene::ArrowHandle> under_mouse(const Eye& eye, const Land& land) const;
+    [[nodiscard]] std::optional<scene::ArrowHandle> under_mouse(const Eye& eye,
+                                                                const Land& land) const;
 
     scene::ArrowEdit edit_;
     std::vector<scene::WindArrow> told_; ///< what draw() last announced

@@ -13,8 +13,7 @@ namespace fs = std::filesystem;
 void capture(const render::ViewState& view, const fs::path& path,
              const std::vector<std::string>& aovs) {
     if (is_linear(path))
-        write_linear(path,
-                     view.read_aovs(aovs.empty() ? std::vector<std::string>{"color"} : aovs));
+        write_linear(path, view.read_aovs(aovs.empty() ? std::vector<std::string>{"color"} : aovs));
     else
         write_display(path, view.read_picture());
 }
@@ -24,7 +23,9 @@ namespace {
 constexpr int kMost = 9999;
 
 base::Error no_free_name(const char* what, const char* stem) {
-    return {base::ExitCode::kIo, fmt::format("{}: found {}-0001 to {}-{} taken, expected a free name", what, stem, stem, kMost)};
+    return {base::ExitCode::kIo,
+            fmt::format("{}: found {}-0001 to {}-{} taken, expected a free name", what, stem, stem,
+                        kMost)};
 }
 
 bool is_taken(const fs::path& path) {
@@ -52,7 +53,9 @@ PictureSequence::PictureSequence() {
         if (is_taken(path))
             continue;
         if (!fs::create_directory(path, error) && error)
-            throw base::input_error(base::ExitCode::kIo, path, 0, "cannot make the folder of a sequence", error.message(), "a writable working directory");
+            throw base::input_error(base::ExitCode::kIo, path, 0,
+                                    "cannot make the folder of a sequence", error.message(),
+                                    "a writable working directory");
         folder_ = path;
         return;
     }
@@ -60,7 +63,8 @@ PictureSequence::PictureSequence() {
 }
 
 void PictureSequence::add(const render::ViewState& view) {
-    write_display(folder_ / fmt::format("{:05}.{}", count_, display_extension()), view.read_picture());
+    write_display(folder_ / fmt::format("{:05}.{}", count_, display_extension()),
+                  view.read_picture());
     ++count_;
 }
 

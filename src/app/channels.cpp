@@ -18,10 +18,10 @@ namespace {
 using scene::Range;
 using scene::TableReader;
 
-constexpr std::uint64_t kLimit = 1u << 16;  // bytes of the file
-constexpr std::size_t kMostChannels = 16;   // each holds targets of its own on the GPU
+constexpr std::uint64_t kLimit = 1u << 16; // bytes of the file
+constexpr std::size_t kMostChannels = 16;  // each holds targets of its own on the GPU
 constexpr double kLargestSide = 16384;
-constexpr double kWidest_deg = 85;          // beyond, a picture plane is all rim
+constexpr double kWidest_deg = 85; // beyond, a picture plane is all rim
 constexpr Range kTurn{-180, 180, "degrees"};
 constexpr Range kSide{1, kLargestSide, "pixels"};
 
@@ -40,14 +40,16 @@ Tangents read_rim(TableReader& table, glm::ivec2 size) {
                           "frustum_deg = [left, right, bottom, top] or fov_deg, one of the two");
     if (given) {
         if (!(n[0] < n[1] && n[2] < n[3]))
-            throw table.error("frustum_deg", fmt::format("{}, {}, {}, {}", n[0], n[1], n[2], n[3]), "left below right, bottom below top");
+            throw table.error("frustum_deg", fmt::format("{}, {}, {}, {}", n[0], n[1], n[2], n[3]),
+                              "left below right, bottom below top");
         return {tangent(n[0]), tangent(n[1]), tangent(n[2]), tangent(n[3])};
     }
     const double high = tangent(fov_deg / 2), wide = high * size.x / size.y;
     return {-wide, wide, -high, high};
 }
 
-glm::ivec2 read_pixels(TableReader& table, const char* key, const Range& range, glm::ivec2 otherwise) {
+glm::ivec2 read_pixels(TableReader& table, const char* key, const Range& range,
+                       glm::ivec2 otherwise) {
     std::vector<double> n;
     if (!table.numbers(key, n, {range, range}))
         return otherwise;
@@ -89,15 +91,18 @@ std::vector<Channel> read_channels(const std::filesystem::path& file) {
     for (TableReader& table : reader.tables("channel", kMostChannels)) {
         const int right = channels.empty() ? 0 : channels.back().at.x + channels.back().size.x;
         Channel channel = read_channel(table, right);
-        if (std::any_of(channels.begin(), channels.end(), [&](const Channel& other) { return other.name == channel.name; }))
+        if (std::any_of(channels.begin(), channels.end(),
+                        [&](const Channel& other) { return other.name == channel.name; }))
             throw table.error("name", channel.name, "a name that no other channel has");
         channels.push_back(std::move(channel));
     }
     reader.finish();
     if (channels.empty())
         throw reader.error("channel", "nothing", "[[channel]] once or more");
-    if (const glm::ivec2 all = extent_of(channels); std::max(all.x, all.y) > static_cast<int>(kLargestSide))
-        throw reader.error("channel", fmt::format("a window of {} x {} pixels", all.x, all.y), fmt::format("at most {} a side", kLargestSide));
+    if (const glm::ivec2 all = extent_of(channels);
+        std::max(all.x, all.y) > static_cast<int>(kLargestSide))
+        throw reader.error("channel", fmt::format("a window of {} x {} pixels", all.x, all.y),
+                           fmt::format("at most {} a side", kLargestSide));
     return channels;
 }
 

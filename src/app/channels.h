@@ -16,12 +16,14 @@ struct Channel {
     std::string name;
     glm::ivec2 size{0}; ///< pixels
     glm::ivec2 at{0};   ///< of its upper left corner in the window, pixels
-    /// From the middle's eye, in that eye's own axes: position is (right, up, back), yaw 0 looks ahead. Its lens is not used.
+    /// From the middle's eye, in that eye's own axes: position is (right, up, back), yaw 0 looks
+    /// ahead. Its lens is not used.
     CameraPose turn;
     Tangents rim;
 };
 
-/// The channels of a TOML file, at least one; docs/simulator.md has its keys. Throws Error: kIo, kBadInput, kOverLimit.
+/// The channels of a TOML file, at least one; docs/simulator.md has its keys. Throws Error: kIo,
+/// kBadInput, kOverLimit.
 [[nodiscard]] std::vector<Channel> read_channels(const std::filesystem::path& file);
 
 /// What a channel sees of a moment whose middle is seen by `middle`, whose own lens does not count.
@@ -31,6 +33,7 @@ struct Channel {
 [[nodiscard]] glm::ivec2 extent_of(const std::vector<Channel>& channels);
 
 /// A channel's picture beside the others': "out.png" becomes "out-left.png".
-[[nodiscard]] std::filesystem::path channel_file(const std::filesystem::path& file, const Channel& channel);
+[[nodiscard]] std::filesystem::path channel_file(const std::filesystem::path& file,
+                                                 const Channel& channel);
 
 } // namespace sward::app

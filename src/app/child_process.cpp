@@ -43,7 +43,8 @@ class Listener {
 public:
     explicit Listener(const std::filesystem::path& program) {
         if (::pipe2(ends_.data(), O_CLOEXEC) != 0)
-            throw base::input_error(base::ExitCode::kIo, program, 0, "cannot run", std::strerror(errno), "room for a pipe");
+            throw base::input_error(base::ExitCode::kIo, program, 0, "cannot run",
+                                    std::strerror(errno), "room for a pipe");
     }
     ~Listener() {
         close_writing();
@@ -69,7 +70,8 @@ public:
             if (count <= 0)
                 return;
             const std::string_view text(piece.data(), static_cast<std::size_t>(count));
-            static_cast<void>(!::write(STDERR_FILENO, text.data(), text.size())); // nowhere to complain
+            static_cast<void>(
+                !::write(STDERR_FILENO, text.data(), text.size())); // nowhere to complain
             for (const char c : text) {
                 if (c != '\n' && line.size() < kLongestLine) {
                     line += c;
@@ -120,10 +122,13 @@ int run_program(const std::filesystem::path& program, const std::vector<std::str
             throw base::input_error(base::ExitCode::kIo, program, 0, "cannot wait",
                                     std::strerror(errno), "its end");
     if (WIFSIGNALED(status))
-        throw base::input_error(base::ExitCode::kFailure, program, 0, "ended before it was done",
-                                fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status))), "its end with a result");
+        throw base::input_error(
+            base::ExitCode::kFailure, program, 0, "ended before it was done",
+            fmt::format("signal {} ({})", WTERMSIG(status), ::strsignal(WTERMSIG(status))),
+            "its end with a result");
     if (WEXITSTATUS(status) == kCannotStart)
-        throw base::input_error(base::ExitCode::kIo, program, 0, "cannot run", "a program that does not start", "the program beside sward");
+        throw base::input_error(base::ExitCode::kIo, program, 0, "cannot run",
+                                "a program that does not start", "the program beside sward");
     return WEXITSTATUS(status);
 }
 

@@ -25,7 +25,8 @@ std::string pace(const CockpitFacts& facts) {
         return "  PAUSED";
     if (facts.rate == 1)
         return {};
-    return facts.rate < 1 ? fmt::format("  TIME 1/{:.0f}", 1 / facts.rate) : fmt::format("  TIME x{:.0f}", facts.rate);
+    return facts.rate < 1 ? fmt::format("  TIME 1/{:.0f}", 1 / facts.rate)
+                          : fmt::format("  TIME x{:.0f}", facts.rate);
 }
 
 } // namespace
@@ -43,9 +44,12 @@ std::string short_count(std::uint64_t count) {
 
 std::string cockpit_line(const CockpitFacts& facts) {
     const int digits = std::abs(facts.above_ground_m) < 100 ? 1 : 0;
-    return fmt::format("{} km/h  {} m above ground  hdg {}  |  {}/{} ms  |  living {}  drawn {}  far {} px  |  {}  t {} s{}{}", number(facts.speed_mps * 3.6, 0),
-                       number(facts.above_ground_m, digits), heading(facts.heading_deg), number(facts.p50_ms, 1), number(facts.p99_ms, 1),
-                       short_count(facts.living), short_count(facts.drawn), short_count(facts.marched), facts.hour, number(facts.time_s, 1), pace(facts),
+    return fmt::format("{} km/h  {} m above ground  hdg {}  |  {}/{} ms  |  living {}  drawn {}  "
+                       "far {} px  |  {}  t {} s{}{}",
+                       number(facts.speed_mps * 3.6, 0), number(facts.above_ground_m, digits),
+                       heading(facts.heading_deg), number(facts.p50_ms, 1), number(facts.p99_ms, 1),
+                       short_count(facts.living), short_count(facts.drawn),
+                       short_count(facts.marched), facts.hour, number(facts.time_s, 1), pace(facts),
                        facts.note.empty() ? "" : "  |  " + facts.note);
 }
 

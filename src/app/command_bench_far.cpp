@@ -11,18 +11,19 @@ namespace sward::app {
 namespace {
 
 constexpr glm::ivec2 kSize{1280, 720};
-constexpr int kTurns = 3;                  // of each scheme
-constexpr double kShareOfPlanes = 0.5;     // of a frame's time
-constexpr double kMostReads = 24;          // texels a pixel that the march covers
-constexpr double kMostSelection_ms = 20;   // on the CPU, of what a frame chooses to draw
-constexpr double kMoreLand = 1.1;          // of a frame's time, a thousand times the land
+constexpr int kTurns = 3;                // of each scheme
+constexpr double kShareOfPlanes = 0.5;   // of a frame's time
+constexpr double kMostReads = 24;        // texels a pixel that the march covers
+constexpr double kMostSelection_ms = 20; // on the CPU, of what a frame chooses to draw
+constexpr double kMoreLand = 1.1;        // of a frame's time, a thousand times the land
 constexpr double kMoreSpacing_m = 16;
 constexpr int kSmallLand = 63, kLargeLand = 1977; // posts a side: 1 and 1000 square kilometres
 
 /// The driver's view of a world, drawn again and again.
 class Driver {
 public:
-    Driver(render::World world, const render::FrameSettings& settings) : renderer_((world.far = settings.far, std::move(world))), settings_(settings) {}
+    Driver(render::World world, const render::FrameSettings& settings)
+        : renderer_((world.far = settings.far, std::move(world))), settings_(settings) {}
     void stand(const scene::Pose& pose) {
         view_.pose = renderer_.above_datum(pose);
         view_.lod_pose = view_.pose;
@@ -51,9 +52,11 @@ void add(Times& times, const std::map<std::string, double>& ms) {
         times[name].push_back(value);
 }
 
-void report_times(BenchReport& report, const char* scene, const char* variant, const Times& times, std::uint64_t bytes) {
+void report_times(BenchReport& report, const char* scene, const char* variant, const Times& times,
+                  std::uint64_t bytes) {
     for (const auto& [pass, samples] : times)
-        report.rows.push_back({scene, variant, pass, spread_of(samples), pass == "frame" ? bytes : 0});
+        report.rows.push_back(
+            {scene, variant, pass, spread_of(samples), pass == "frame" ? bytes : 0});
 }
 
 scene::Scene jacksboro() {
@@ -91,15 +94,22 @@ void schemes(BenchReport& report, const Options& options) {
     report_times(report, "driver's view", "march", marched, march.stats().gpu_bytes);
     report_times(report, "driver's view", "planes", drawn, planes.stats().gpu_bytes);
     report_times(report, "driver's view", "published", as_published, published.stats().gpu_bytes);
-    report.checks.push_back({"far: a frame of the march over one of the planes", spread_of(marched["frame"]).min / spread_of(drawn["frame"]).min, kShareOfPlanes});
-    report.checks.push_back({"far: selection on the CPU, ms", spread_of(marched["select blocks"]).min + spread_of(marched["select blades"]).min, kMostSelection_ms});
+    report.checks.push_back({"far: a frame of the march over one of the planes",
+                             spread_of(marched["frame"]).min / spread_of(drawn["frame"]).min,
+                             kShareOfPlanes});
+    report.checks.push_back(
+        {"far: selection on the CPU, ms",
+         spread_of(marched["select blocks"]).min + spread_of(marched["select blades"]).min,
+         kMostSelection_ms});
     march.settings().count_steps = true;
     march.draw();
     const render::FrameStats& stats = march.stats();
     const auto pixels = static_cast<double>(stats.shell_fragments + stats.slice_fragments);
     report.figures.push_back({"driver's view", "march", "pixels covered", pixels});
-    report.figures.push_back({"driver's view", "march", "steps a pixel", static_cast<double>(stats.march_steps) / pixels});
-    report.checks.push_back({"far: texels read a pixel covered", static_cast<double>(stats.march_reads) / pixels, kMostReads});
+    report.figures.push_back({"driver's view", "march", "steps a pixel",
+                              static_cast<double>(stats.march_steps) / pixels});
+    report.checks.push_back({"far: texels read a pixel covered",
+                             static_cast<double>(stats.march_reads) / pixels, kMostReads});
 }
 
 /// Gentle hills, so many posts a side.
@@ -109,7 +119,8 @@ render::World hills(int posts) {
     scene::Heightfield land{posts, posts, {kMoreSpacing_m, kMoreSpacing_m}, {}, {}};
     for (int row = 0; row < posts; ++row)
         for (int column = 0; column < posts; ++column)
-            land.metres.push_back(static_cast<float>(20 * std::sin(0.11 * (column - posts / 2)) * std::cos(0.07 * (row - posts / 2))));
+            land.metres.push_back(static_cast<float>(20 * std::sin(0.11 * (column - posts / 2)) *
+                                                     std::cos(0.07 * (row - posts / 2))));
     world.elevation = std::move(land);
     return world;
 }
@@ -132,7 +143,9 @@ void lands(BenchReport& report, const Options& options) {
     }
     report_times(report, "hills", "1 km2", on_small, small.stats().gpu_bytes);
     report_times(report, "hills", "1000 km2", on_large, large.stats().gpu_bytes);
-    report.checks.push_back({"far: a frame on 1000 km2 over one on 1", spread_of(on_large["frame"]).min / spread_of(on_small["frame"]).min, kMoreLand});
+    report.checks.push_back({"far: a frame on 1000 km2 over one on 1",
+                             spread_of(on_large["frame"]).min / spread_of(on_small["frame"]).min,
+                             kMoreLand});
 }
 
 } // namespace

@@ -12,26 +12,33 @@
 namespace sward::app {
 namespace {
 
-constexpr int kRounds = 9;                // of each, after one step that begins and one that builds what is built late
-constexpr double kLeastGain = 0.62;       // of one program for all: what the program without the branches costs
+constexpr int kRounds =
+    9; // of each, after one step that begins and one that builds what is built late
+constexpr double kLeastGain =
+    0.62; // of one program for all: what the program without the branches costs
 constexpr std::size_t kPool = 192u << 20;
 
 /// The living blades of a scene on a mesh, without its picture.
 class Field {
 public:
     explicit Field(const render::World& world)
-        : grass_(blades::place_surface_grass(world.surface, world.scene.surface_grass, world.scene.terrain.surface)),
-          records_(gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass_.blades))), wind_(world.scene.wind, 0),
-          surface_({2, 2, {1000, 1000}, {0, 0, 0, 0}, {}}, 0), colliders_(world.scene, world.spheres, [](double, double) { return 0.0; }),
+        : grass_(blades::place_surface_grass(world.surface, world.scene.surface_grass,
+                                             world.scene.terrain.surface)),
+          records_(gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass_.blades))),
+          wind_(world.scene.wind, 0), surface_({2, 2, {1000, 1000}, {0, 0, 0, 0}, {}}, 0),
+          colliders_(world.scene, world.spheres, [](double, double) { return 0.0; }),
           canopy_m_(world.scene.surface_grass.blade_height_m.y) {}
 
     [[nodiscard]] blades::SurfaceSimulation simulation(blades::StepPrograms programs) const {
-        return {{{&records_, grass_.clusters}}, canopy_m_, {{1e6, kPool}, blades::LivingBlades::kStep_s, programs}};
+        return {{{&records_, grass_.clusters}},
+                canopy_m_,
+                {{1e6, kPool}, blades::LivingBlades::kStep_s, programs}};
     }
     /// Milliseconds of a step's physics.
     double step(blades::SurfaceSimulation& simulation, double time_s) {
         timers_.begin_frame(true);
-        simulation.advance(time_s, {wind_, surface_, colliders_, glm::dvec3(0), glm::dvec3(0), 0, 0, &timers_});
+        simulation.advance(
+            time_s, {wind_, surface_, colliders_, glm::dvec3(0), glm::dvec3(0), 0, 0, &timers_});
         double ms = 0;
         for (const gl::PassTimers::Row& row : timers_.rows())
             ms += row.name == "physics" ? row.cpu_ms : 0;
@@ -50,7 +57,8 @@ private:
 
 /// Blades whose states are not the same bits.
 double differing(const blades::SurfaceSimulation& a, const blades::SurfaceSimulation& b) {
-    const auto one = a.pass().states().read_all<glm::vec4>(a.slots() * CULL_GROUP), other = b.pass().states().read_all<glm::vec4>(b.slots() * CULL_GROUP);
+    const auto one = a.pass().states().read_all<glm::vec4>(a.slots() * CULL_GROUP),
+               other = b.pass().states().read_all<glm::vec4>(b.slots() * CULL_GROUP);
     double count = 0;
     for (std::size_t n = 0; n < one.size(); ++n)
         count += std::memcmp(&one[n], &other[n], sizeof(glm::vec4)) != 0;
@@ -65,7 +73,8 @@ struct Compared {
 
 Compared compare(const scene::Scene& scene) {
     Field field(load_world(scene));
-    auto three = field.simulation(blades::StepPrograms::kThree), one = field.simulation(blades::StepPrograms::kOne);
+    auto three = field.simulation(blades::StepPrograms::kThree),
+         one = field.simulation(blades::StepPrograms::kOne);
     std::vector<double> three_ms, one_ms, ratios;
     for (int step = 0; step < kRounds + 2; ++step) {
         const double time_s = step * blades::LivingBlades::kStep_s;
@@ -79,7 +88,8 @@ Compared compare(const scene::Scene& scene) {
             ratios.push_back(ms[0] / ms[1]);
         }
     }
-    return {spread_of(three_ms), spread_of(one_ms), spread_of(ratios).median, differing(three, one)};
+    return {spread_of(three_ms), spread_of(one_ms), spread_of(ratios).median,
+            differing(three, one)};
 }
 
 } // namespace
@@ -94,9 +104,11 @@ void bench_physics(BenchReport& report) {
         report.rows.push_back({name, "three programs", "physics", compared.three, 0});
         report.rows.push_back({name, "one for all", "physics", compared.one, 0});
         report.figures.push_back({name, "three programs", "over one for all", compared.ratio, -1});
-        report.checks.push_back({"near: " + name + ", states that differ by the programs", compared.differ, 0});
+        report.checks.push_back(
+            {"near: " + name + ", states that differ by the programs", compared.differ, 0});
         if (!spheres)
-            report.checks.push_back({"near: physics without spheres, three programs over one", compared.ratio, kLeastGain});
+            report.checks.push_back({"near: physics without spheres, three programs over one",
+                                     compared.ratio, kLeastGain});
     }
 }
 

@@ -10,7 +10,7 @@
 namespace sward::app {
 namespace {
 
-constexpr int kSide = 15;     // 225 pages, as published
+constexpr int kSide = 15; // 225 pages, as published
 constexpr int kMostBlocks = kSide * kSide * tracks::Tracks::kMovingBlocksAPage;
 constexpr int kWarm = 2, kRounds = 5;
 constexpr double kCanopy_m = 0.3;
@@ -21,17 +21,21 @@ double timed_ms(const std::function<void()>& work) {
     const auto start = std::chrono::steady_clock::now();
     work();
     glFinish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+        .count();
 }
 
-/// 225 pages, each crossed by a wheel from west to east: what moves is the blocks within 1.5 m of where it has been.
+/// 225 pages, each crossed by a wheel from west to east: what moves is the blocks within 1.5 m of
+/// where it has been.
 tracks::TrackPass::Work crossed(double cell_m) {
     constexpr int kRow = shared::kTrackRow, kFirst = 3, kRows = 2; // rows of blocks that move
     tracks::TrackPass::Work work;
     const auto place = [](int page_x, int page_z, int x, int z) {
         page_x += x < 0 ? -1 : x >= kRow ? 1 : 0;
         x = (x + kRow) % kRow;
-        return page_x < 0 || page_x >= kSide || z < kFirst || z >= kFirst + kRows ? -1 : ((page_z * kSide + page_x) * kRows + z - kFirst) * kRow + x;
+        return page_x < 0 || page_x >= kSide || z < kFirst || z >= kFirst + kRows
+                   ? -1
+                   : ((page_z * kSide + page_x) * kRows + z - kFirst) * kRow + x;
     };
     const auto middle = static_cast<float>(0.5 * cell_m * shared::kTrackCells);
     for (int page = 0; page < kSide * kSide; ++page) {
@@ -43,7 +47,8 @@ tracks::TrackPass::Work crossed(double cell_m) {
                 block.prints = x == kRow / 2 || x == kRow / 2 - 1 ? 1 : 0;
                 block.first_cell = glm::ivec2(x, z) * shared::kTrackBlock;
                 block.own = place(page_x, page_z, x, z);
-                block.beside = {place(page_x, page_z, x - 1, z), place(page_x, page_z, x + 1, z), place(page_x, page_z, x, z - 1), place(page_x, page_z, x, z + 1)};
+                block.beside = {place(page_x, page_z, x - 1, z), place(page_x, page_z, x + 1, z),
+                                place(page_x, page_z, x, z - 1), place(page_x, page_z, x, z + 1)};
                 work.moving.push_back(block);
             }
         }
@@ -66,7 +71,8 @@ tracks::TrackPass::Work full() {
         shared::TrackBlock block{};
         const int n = place % shared::kTrackBlocks;
         block.slot = place / shared::kTrackBlocks;
-        block.first_cell = glm::ivec2(n % shared::kTrackRow, n / shared::kTrackRow) * shared::kTrackBlock;
+        block.first_cell =
+            glm::ivec2(n % shared::kTrackRow, n / shared::kTrackRow) * shared::kTrackBlock;
         block.own = place;
         block.beside = {-1, -1, -1, -1};
         work.moving.push_back(block);
@@ -101,13 +107,18 @@ void bench_tracks(BenchReport& report) {
     }
     const std::string scene = "225 pages of 128 x 128";
     report.rows.push_back({scene, "a wheel in each", "step", spread_of(step), pass.bytes()});
-    report.rows.push_back({scene, "every block that can move", "step", spread_of(all), pass.bytes()});
+    report.rows.push_back(
+        {scene, "every block that can move", "step", spread_of(all), pass.bytes()});
     report.rows.push_back({scene, "all changed", "show", spread_of(show), pass.bytes()});
     const double asleep = timed_ms([&] { pass.step(rules, {}); });
     report.rows.push_back({scene, "all asleep", "step", {asleep, asleep, asleep}, pass.bytes()});
-    report.figures.push_back({scene, "sward", "megabytes of the pool", static_cast<double>(pass.bytes()) / 1e6, 63});
-    report.figures.push_back({scene, "sward", "cells", kSide * kSide * double{shared::kTrackCells} * shared::kTrackCells, 225.0 * 128 * 128});
-    report.checks.push_back({"tracks: a step with all pages asleep over one with a wheel in each", asleep / spread_of(step).median, 0.01});
+    report.figures.push_back(
+        {scene, "sward", "megabytes of the pool", static_cast<double>(pass.bytes()) / 1e6, 63});
+    report.figures.push_back({scene, "sward", "cells",
+                              kSide * kSide * double{shared::kTrackCells} * shared::kTrackCells,
+                              225.0 * 128 * 128});
+    report.checks.push_back({"tracks: a step with all pages asleep over one with a wheel in each",
+                             asleep / spread_of(step).median, 0.01});
 }
 
 } // namespace sward::app

@@ -15,10 +15,10 @@ namespace sward::app {
 namespace {
 
 constexpr int kCells = 1000;
-constexpr int kMargin = 64;     // cells at the rim that no figure counts: the two treat it differently
-constexpr int kWarm = 8;        // steps before the first that counts
-constexpr int kRounds = 9;      // of each scheme in turns, so that what else the machine does hits both
-constexpr int kSteps = 2;       // a round; the time is that of one
+constexpr int kMargin = 64; // cells at the rim that no figure counts: the two treat it differently
+constexpr int kWarm = 8;    // steps before the first that counts
+constexpr int kRounds = 9;  // of each scheme in turns, so that what else the machine does hits both
+constexpr int kSteps = 2;   // a round; the time is that of one
 constexpr glm::vec2 kMean_mps{4, 0};
 
 /// Air without obstacles or forces.
@@ -52,9 +52,11 @@ double divergence_share(const gl::Buffer& u_buffer, const gl::Buffer& v_buffer) 
     for (int y = kMargin; y < kCells - kMargin; ++y) {
         for (int x = kMargin; x < kCells - kMargin; ++x) {
             const std::size_t at = static_cast<std::size_t>(y) * kCells + x;
-            const double d = static_cast<double>(u[at + 1]) - static_cast<double>(u[at]) + static_cast<double>(v[at + kCells]) - static_cast<double>(v[at]);
+            const double d = static_cast<double>(u[at + 1]) - static_cast<double>(u[at]) +
+                             static_cast<double>(v[at + kCells]) - static_cast<double>(v[at]);
             divergence += d * d;
-            square += static_cast<double>(u[at]) * static_cast<double>(u[at]) + static_cast<double>(v[at]) * static_cast<double>(v[at]);
+            square += static_cast<double>(u[at]) * static_cast<double>(u[at]) +
+                      static_cast<double>(v[at]) * static_cast<double>(v[at]);
         }
     }
     return std::sqrt(divergence / square);
@@ -66,7 +68,9 @@ template<class Step> double step_ms(const Step& step) {
     for (int i = 0; i < kSteps; ++i)
         step();
     glFinish();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / kSteps;
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start)
+               .count() /
+           kSteps;
 }
 
 } // namespace
@@ -89,7 +93,9 @@ void bench_wind(BenchReport& report) {
     shared::WindField rim{};
     rim.mean = kMean_mps;
     double time_s = 0;
-    const auto own_step = [&] { fluid.step(inputs, time_s += settings.step_s, rim, shared::kWindCeiling_mps); };
+    const auto own_step = [&] {
+        fluid.step(inputs, time_s += settings.step_s, rim, shared::kWindCeiling_mps);
+    };
     const auto published_step = [&] { published.step(); };
     for (int i = 0; i < kWarm; ++i) {
         own_step();
@@ -104,8 +110,10 @@ void bench_wind(BenchReport& report) {
     const std::string scene = "gusts 1000 x 1000";
     report.rows.push_back({scene, "sward", "step", spread_of(own_ms), between - before});
     report.rows.push_back({scene, "published", "step", spread_of(published_ms), after - between});
-    const double own = divergence_share(*fluid.grid().u, *fluid.grid().v), theirs = divergence_share(published.u(), published.v());
-    report.checks.push_back({"wind: step over the published scheme's, median of rounds", spread_of(ratios).median, 1});
+    const double own = divergence_share(*fluid.grid().u, *fluid.grid().v),
+                 theirs = divergence_share(published.u(), published.v());
+    report.checks.push_back(
+        {"wind: step over the published scheme's, median of rounds", spread_of(ratios).median, 1});
     report.checks.push_back({"wind: divergence over the published scheme's", own / theirs, 0.05});
     report.checks.push_back({"wind: divergence times cell over speed", own, 1e-3});
 }

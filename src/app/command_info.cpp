@@ -47,18 +47,22 @@ namespace {
 
 /// "12.5 km" or "340 m".
 std::string length(double metres) {
-    return metres < 10000 ? fmt::format("{:.6g} m", metres) : fmt::format("{:.6g} km", metres / 1000);
+    return metres < 10000 ? fmt::format("{:.6g} m", metres)
+                          : fmt::format("{:.6g} km", metres / 1000);
 }
 
 void print_ground(const scene::Heightfield& ground) {
     const glm::dvec2 extent = ground.extent_m(), half = 0.5 * extent;
-    row("extent", fmt::format("{} x {}: x {:.1f} to {:.1f}, z {:.1f} to {:.1f} m", length(extent.x), length(extent.y), -half.x, half.x,
-                              -half.y, half.y));
-    row("posts", fmt::format("{} x {}, {:.6g} x {:.6g} m apart", ground.width, ground.height, ground.spacing_m.x, ground.spacing_m.y));
+    row("extent", fmt::format("{} x {}: x {:.1f} to {:.1f}, z {:.1f} to {:.1f} m", length(extent.x),
+                              length(extent.y), -half.x, half.x, -half.y, half.y));
+    row("posts", fmt::format("{} x {}, {:.6g} x {:.6g} m apart", ground.width, ground.height,
+                             ground.spacing_m.x, ground.spacing_m.y));
     if (ground.origin) {
         row("crs", fmt::format("{}; drawn {} about the origin", ground.origin->source,
-                               ground.origin->crs.empty() ? "by degrees of its middle latitude" : "azimuthal equidistant"));
-        row("origin", fmt::format("{:.7f}, {:.7f} (latitude, longitude, WGS 84)", ground.origin->latitude_deg, ground.origin->longitude_deg));
+                               ground.origin->crs.empty() ? "by degrees of its middle latitude"
+                                                          : "azimuthal equidistant"));
+        row("origin", fmt::format("{:.7f}, {:.7f} (latitude, longitude, WGS 84)",
+                                  ground.origin->latitude_deg, ground.origin->longitude_deg));
     } else {
         row("crs", "none: the terrain has no place on Earth");
     }
@@ -70,7 +74,8 @@ void print_ground(const scene::Heightfield& ground) {
 std::string look_text(const scene::LandClass& look) {
     std::string text = fmt::format("density {}", look.density);
     if (!look.plain())
-        text += fmt::format(", height {}, dryness {}, ground {}", look.height, look.dryness, scene::kGroundNames[static_cast<std::size_t>(look.ground)]);
+        text += fmt::format(", height {}, dryness {}, ground {}", look.height, look.dryness,
+                            scene::kGroundNames[static_cast<std::size_t>(look.ground)]);
     return text;
 }
 
@@ -78,20 +83,27 @@ void print_mask(const scene::TerrainSpec& terrain, const scene::DensityMask& mas
     double sum = 0;
     for (const float density : mask.density)
         sum += density;
-    const std::string place = mask.size_m.x > 0 ? fmt::format("x {:.1f} to {:.1f}, z {:.1f} to {:.1f} m", mask.first_m.x, mask.first_m.x + mask.size_m.x,
-                                                              mask.first_m.y, mask.first_m.y + mask.size_m.y)
-                                                : std::string("spread over the terrain");
-    row("mask", fmt::format("{} x {} texels, {}; mean density {:.4f}", mask.width, mask.height, place, sum / double(mask.density.size())));
+    const std::string place = mask.size_m.x > 0
+                                  ? fmt::format("x {:.1f} to {:.1f}, z {:.1f} to {:.1f} m",
+                                                mask.first_m.x, mask.first_m.x + mask.size_m.x,
+                                                mask.first_m.y, mask.first_m.y + mask.size_m.y)
+                                  : std::string("spread over the terrain");
+    row("mask", fmt::format("{} x {} texels, {}; mean density {:.4f}", mask.width, mask.height,
+                            place, sum / double(mask.density.size())));
     for (const auto& [value, share] : mask.class_shares) {
         const auto found = terrain.classes.find(value);
         const std::string name = value < 0 ? "no value" : fmt::format("class {}", value);
-        row(name, fmt::format("{:.3f} % of the terrain, {}", 100 * share, look_text(found == terrain.classes.end() ? scene::LandClass{} : found->second)));
+        row(name, fmt::format("{:.3f} % of the terrain, {}", 100 * share,
+                              look_text(found == terrain.classes.end() ? scene::LandClass{}
+                                                                       : found->second)));
     }
     if (terrain.outside)
         row("outside", look_text(*terrain.outside));
     for (const scene::LandFeature& feature : terrain.features)
-        row(feature.width_m > 0 ? "line" : "area", fmt::format("{}{}, {}", base::printable(feature.file.filename().native()),
-                                                                 feature.width_m > 0 ? fmt::format(", {} m wide", feature.width_m) : "", look_text(feature.look)));
+        row(feature.width_m > 0 ? "line" : "area",
+            fmt::format("{}{}, {}", base::printable(feature.file.filename().native()),
+                        feature.width_m > 0 ? fmt::format(", {} m wide", feature.width_m) : "",
+                        look_text(feature.look)));
 }
 
 void print_scene(const Options& options) {
@@ -101,7 +113,8 @@ void print_scene(const Options& options) {
     if (!scene.terrain.surface.empty()) {
         const scene::Mesh mesh = load_mesh(scene.terrain.surface);
         print_name();
-        row("surface", fmt::format("{} triangles, {} vertices", mesh.triangles.size(), mesh.positions.size()));
+        row("surface",
+            fmt::format("{} triangles, {} vertices", mesh.triangles.size(), mesh.positions.size()));
         return;
     }
     const scene::Heightfield ground = load_elevation(scene.terrain);

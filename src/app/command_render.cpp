@@ -34,7 +34,7 @@ struct Shot {
     scene::Pose camera;
     std::optional<scene::Path> path; ///< of the scene; none: `camera` stands
     std::optional<scene::Pose> lod_eye;
-    std::optional<Camera> matrices; ///< in the place of both
+    std::optional<Camera> matrices;     ///< in the place of both
     std::optional<FlightRecord> record; ///< likewise, and of the time's steps
     FrameRange frames;
 };
@@ -87,8 +87,11 @@ Look look_of(const Shot& shot, const Options& options, const Field& field, int f
         look.camera = camera_of(at, options.frame.width, options.frame.height);
         return look;
     }
-    const scene::Pose pose = above_datum(shot.path ? scene::sample_path(*shot.path, look.time_s) : shot.camera, field);
-    look.camera = shot.matrices ? *shot.matrices : render::camera_of_pose(pose, options.frame.width, options.frame.height);
+    const scene::Pose pose =
+        above_datum(shot.path ? scene::sample_path(*shot.path, look.time_s) : shot.camera, field);
+    look.camera = shot.matrices
+                      ? *shot.matrices
+                      : render::camera_of_pose(pose, options.frame.width, options.frame.height);
     if (shot.lod_eye)
         look.lod_eye = above_datum(*shot.lod_eye, field).position;
     return look;
@@ -112,7 +115,8 @@ void write_picture(const render::ViewState& drawn, const fs::path& name, const O
 }
 
 /// One picture and its statistics: both or neither.
-void write_one(const Options& options, const render::ViewState& view, const std::vector<std::string>& stats) {
+void write_one(const Options& options, const render::ViewState& view,
+               const std::vector<std::string>& stats) {
     std::optional<base::PendingOutput> pending;
     if (!options.stats.empty()) {
         make_parent(options.stats);
@@ -120,7 +124,8 @@ void write_one(const Options& options, const render::ViewState& view, const std:
         try {
             base::write_file_atomic(pending->path(), stats.front());
         } catch (const base::Error&) { // it names the temporary
-            throw base::input_error(base::ExitCode::kIo, options.stats, 0, "cannot write", "no room for it", "room for the whole file");
+            throw base::input_error(base::ExitCode::kIo, options.stats, 0, "cannot write",
+                                    "no room for it", "room for the whole file");
         }
     }
     write_picture(view, options.output, options);
@@ -139,27 +144,35 @@ void write_sequence_stats(const Options& options, const std::vector<std::string>
     }
 }
 
-/// Before any costly work: tracks need a scene that has some, and a file that ends as what it will be.
+/// Before any costly work: tracks need a scene that has some, and a file that ends as what it will
+/// be.
 void check_tracks(const Options& options, const scene::Scene& scene) {
-    for (const auto& [name, file] : {std::pair{"--tracks", &options.tracks}, std::pair{"--save-tracks", &options.save_tracks}}) {
+    for (const auto& [name, file] : {std::pair{"--tracks", &options.tracks},
+                                     std::pair{"--save-tracks", &options.save_tracks}}) {
         if (file->empty())
             continue;
         if (!scene.tracks)
-            throw base::Error(base::ExitCode::kUsage, fmt::format("{}: found a scene without [tracks], expected one with it", name));
+            throw base::Error(
+                base::ExitCode::kUsage,
+                fmt::format("{}: found a scene without [tracks], expected one with it", name));
         if (!is_linear(*file))
-            throw base::Error(base::ExitCode::kUsage, fmt::format("{}: found {}, expected the name of an .exr", name, base::printable(file->native())));
+            throw base::Error(base::ExitCode::kUsage,
+                              fmt::format("{}: found {}, expected the name of an .exr", name,
+                                          base::printable(file->native())));
     }
 }
 
 void take_tracks(const Options& options, Field& field) {
     if (!options.tracks.empty())
-        render::Access::state(field).tracks->begin_with(read_linear(options.tracks), base::printable(options.tracks.native()));
+        render::Access::state(field).tracks->begin_with(read_linear(options.tracks),
+                                                        base::printable(options.tracks.native()));
 }
 
 /// How many pictures a record has where --frames does not say.
 FrameRange whole_of(const FlightRecord& record, const Options& options) {
     constexpr int kMostFrames = 999'999;
-    const double first = std::max(options.time_s, record.start_s), steps = std::max(0.0, record.end_s() - first) / options.step_s;
+    const double first = std::max(options.time_s, record.start_s),
+                 steps = std::max(0.0, record.end_s() - first) / options.step_s;
     return {0, static_cast<int>(std::min<double>(kMostFrames, std::floor(steps + 1e-6)))};
 }
 
@@ -170,12 +183,15 @@ struct Screen {
     std::optional<Channel> channel;
     View view;
 
-    Screen(Field& field, Options own, std::optional<Channel> of) : options(std::move(own)), names(options), channel(std::move(of)), view(field) {
+    Screen(Field& field, Options own, std::optional<Channel> of)
+        : options(std::move(own)), names(options), channel(std::move(of)), view(field) {
         render::FrameSettings& settings = render::Access::settings(view);
         settings = options.frame;
         settings.aov = !options.aovs.empty();
     }
-    [[nodiscard]] Camera camera(const Look& look) const { return channel ? channel_camera(look.camera, *channel) : look.camera; }
+    [[nodiscard]] Camera camera(const Look& look) const {
+        return channel ? channel_camera(look.camera, *channel) : look.camera;
+    }
     [[nodiscard]] const render::ViewState& drawn() { return render::Access::state(view); }
     void draw(const Look& look) {
         render::Access::settings(view).lod_eye = look.lod_eye;
@@ -203,7 +219,8 @@ std::vector<Channel> channels_of(const Options& options) {
     return channels;
 }
 
-std::vector<Screen> screens_of(const Options& options, std::vector<Channel> channels, Field& field) {
+std::vector<Screen> screens_of(const Options& options, std::vector<Channel> channels,
+                               Field& field) {
     std::vector<Screen> screens;
     screens.reserve(std::max<std::size_t>(1, channels.size()));
     if (channels.empty())
@@ -214,7 +231,8 @@ std::vector<Screen> screens_of(const Options& options, std::vector<Channel> chan
 }
 
 /// The field as it is at a picture's time.
-void simulate(const Shot& shot, const Look& look, const std::vector<Screen>& screens, Field& field, std::optional<RecordedTime>& steps) {
+void simulate(const Shot& shot, const Look& look, const std::vector<Screen>& screens, Field& field,
+              std::optional<RecordedTime>& steps) {
     const SimulationLimits limits = render::limits_of(screens.front().options.frame);
     if (!shot.record) {
         std::vector<glm::dvec3> eyes;
@@ -228,8 +246,10 @@ void simulate(const Shot& shot, const Look& look, const std::vector<Screen>& scr
     steps->follow(*shot.record, look.time_s);
 }
 
-/// Draws every picture, and writes those of a sequence; returns their statistics, where they are asked for.
-std::vector<std::string> draw_all(const Shot& shot, const Options& options, Field& field, std::vector<Screen>& screens, const gl::DebugMessages& messages) {
+/// Draws every picture, and writes those of a sequence; returns their statistics, where they are
+/// asked for.
+std::vector<std::string> draw_all(const Shot& shot, const Options& options, Field& field,
+                                  std::vector<Screen>& screens, const gl::DebugMessages& messages) {
     const std::string gpu = gl::context_info().renderer;
     const int count = shot.frames.last - shot.frames.first + 1;
     std::optional<base::Progress> progress;
@@ -246,7 +266,8 @@ std::vector<std::string> draw_all(const Shot& shot, const Options& options, Fiel
                 screen.draw(look);
         }
         if (!options.stats.empty())
-            stats.push_back(stats_json(screens.front().drawn().stats(), gpu, render::Access::settings(screens.front().view)));
+            stats.push_back(stats_json(screens.front().drawn().stats(), gpu,
+                                       render::Access::settings(screens.front().view)));
         require_silence(messages);
         for (Screen& screen : screens)
             if (options.frames)

@@ -68,15 +68,18 @@ private:
 class Viewer {
 public:
     explicit Viewer(const Options& options)
-        : options_(options),
-          channels_(options.channels.empty() ? std::vector<Channel>{} : read_channels(options.channels)), record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
-          window_("Sward", place_of(options, channels_), options.debug_gl), panel_(window_.handle()) {
+        : options_(options), channels_(options.channels.empty() ? std::vector<Channel>{}
+                                                                : read_channels(options.channels)),
+          record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
+          window_("Sward", place_of(options, channels_), options.debug_gl),
+          panel_(window_.handle()) {
         gl::require_gl45();
         window_.use_devices(std::move(devices_));
     }
 
-    /// Shows a scene, from its camera `camera`, and what is asked for next. A scene that was asked for within the window and fails is told of, and
-    /// the one before is there again. Throws Stopped.
+    /// Shows a scene, from its camera `camera`, and what is asked for next. A scene that was asked
+    /// for within the window and fails is told of, and the one before is there again. Throws
+    /// Stopped.
     void run(scene::Scene scene, std::string camera) {
         std::optional<scene::Scene> before;
         std::string word;
@@ -111,7 +114,8 @@ public:
     }
 
 private:
-    std::optional<scene::Scene> show(scene::Scene& scene, const std::string& camera, const std::string& word) {
+    std::optional<scene::Scene> show(scene::Scene& scene, const std::string& camera,
+                                     const std::string& word) {
         if (options_.density)
             scene.grass.density = *options_.density;
         scene::Pose start = find_camera(scene, camera);
@@ -121,8 +125,13 @@ private:
         world.far = options_.frame.far;
         const scene::PlaceOnEarth on_earth = place_on_earth(world.elevation);
         scene::settle_place(start, on_earth, "--camera");
-        const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg : SunDay::kUsualLatitude_deg;
-        const std::unique_ptr<PoseSource> source = record_ ? std::make_unique<ReplaySource>(*record_) : make_pose_source(options_, {links_, on_earth, links_.out ? grass_share_of(world) : GrassShare()});
+        const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg
+                                                       : SunDay::kUsualLatitude_deg;
+        const std::unique_ptr<PoseSource> source =
+            record_
+                ? std::make_unique<ReplaySource>(*record_)
+                : make_pose_source(options_, {links_, on_earth,
+                                              links_.out ? grass_share_of(world) : GrassShare()});
         source->add_objects(world);
         Field field = build(std::move(world), screen);
         if (options_.exit_after == 0)
@@ -130,7 +139,8 @@ private:
         std::optional<RecordWriter> writer;
         if (!options_.record.empty())
             writer.emplace(options_.record, scene.file.string(), options_.time_s);
-        Flight flight({options_, scene, channels_, start, latitude, window_, panel_, field, *source, word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
+        Flight flight({options_, scene, channels_, start, latitude, window_, panel_, field, *source,
+                       word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
         return flight.run();
     }
 
@@ -158,7 +168,8 @@ void run_view(const Options& options) {
     if (options.list_joysticks)
         return list_joysticks();
     scene::Scene scene = first_scene(options);
-    static_cast<void>(find_camera(scene, options.camera)); // a wrong name is told before the window opens
+    static_cast<void>(
+        find_camera(scene, options.camera)); // a wrong name is told before the window opens
     if (!options.drive.empty())
         static_cast<void>(find_vehicle(options.drive)); // likewise
     if (!options.fly.empty())

@@ -22,11 +22,13 @@ namespace {
 
 constexpr int kMostFrames = 999'999; // as render's --frames
 
-/// The window's north-west cell first, rows from the north: what is stored around a torus, in the order of a picture.
+/// The window's north-west cell first, rows from the north: what is stored around a torus, in the
+/// order of a picture.
 class Cells {
 public:
     explicit Cells(const wind::Fluid& fluid) : grid_(fluid.grid()) {
-        const auto count = static_cast<std::size_t>(grid_.cells) * static_cast<std::size_t>(grid_.cells);
+        const auto count =
+            static_cast<std::size_t>(grid_.cells) * static_cast<std::size_t>(grid_.cells);
         u_ = grid_.u->read_all<float>(count);
         v_ = grid_.v->read_all<float>(count);
         solid_ = grid_.solid->read_all<std::uint32_t>(count);
@@ -50,8 +52,10 @@ public:
 private:
     [[nodiscard]] std::size_t index(int x, int z) const {
         const int n = grid_.cells;
-        const int column = (std::clamp(x, 0, n - 1) + grid_.offset.x) % n, row = (std::clamp(z, 0, n - 1) + grid_.offset.y) % n;
-        return static_cast<std::size_t>(row) * static_cast<std::size_t>(n) + static_cast<std::size_t>(column);
+        const int column = (std::clamp(x, 0, n - 1) + grid_.offset.x) % n,
+                  row = (std::clamp(z, 0, n - 1) + grid_.offset.y) % n;
+        return static_cast<std::size_t>(row) * static_cast<std::size_t>(n) +
+               static_cast<std::size_t>(column);
     }
     [[nodiscard]] double u(int x, int z) const { return u_[index(x, z)]; }
     [[nodiscard]] double v(int x, int z) const { return v_[index(x, z)]; }
@@ -74,7 +78,8 @@ scene::Image image_of(const Cells& cells, double time_s) {
     for (int z = 0; z < grid.cells; ++z)
         for (int x = 0; x < grid.cells; ++x) {
             const glm::vec2 velocity = cells.velocity(x, z);
-            for (const float value : {velocity.x, velocity.y, cells.vorticity(x, z), cells.divergence(x, z), cells.solid(x, z)})
+            for (const float value : {velocity.x, velocity.y, cells.vorticity(x, z),
+                                      cells.divergence(x, z), cells.solid(x, z)})
                 image.texels.push_back(value);
         }
     image.metadata = {{"cell_m", fmt::format("{}", grid.cell_m)},
@@ -90,7 +95,8 @@ Options with_frames(Options options) {
         const double count = std::floor(options.time_s / *options.every_s + 1e-9);
         if (count > kMostFrames)
             throw option_error("--every", fmt::format("{}", *options.every_s),
-                               fmt::format("at most {} pictures in --time", kMostFrames), base::ExitCode::kOverLimit);
+                               fmt::format("at most {} pictures in --time", kMostFrames),
+                               base::ExitCode::kOverLimit);
         options.frames = FrameRange{0, static_cast<int>(count)};
     } else if (options.output.native().find('%') != std::string::npos) {
         options.frames = FrameRange{0, 0};
@@ -137,7 +143,9 @@ void run_wind(const Options& given) {
         wind.advance(time_s, options.at);
         const wind::Window& window = *wind.window();
         make_parent(names.name(frame));
-        write_linear(names.name(frame), image_of(Cells(window.fluid()), static_cast<double>(window.tag().latest) * window.tag().step_s));
+        write_linear(names.name(frame),
+                     image_of(Cells(window.fluid()),
+                              static_cast<double>(window.tag().latest) * window.tag().step_s));
         if (progress)
             progress->advance();
     }

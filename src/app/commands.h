@@ -15,7 +15,8 @@ struct AlreadyReported {
 void run_render(const Options& options);
 /// The wind's local window as pictures of numbers. Throws Error.
 void run_wind(const Options& options);
-/// Figures of this machine: times, and what the project promises of them. Throws Error(kFailure) when one misses its limit.
+/// Figures of this machine: times, and what the project promises of them. Throws Error(kFailure)
+/// when one misses its limit.
 void run_bench(const Options& options);
 /// The viewer. Throws Error; kNoGpu where there is no display. The core build has none and says so.
 void run_view(const Options& options);

@@ -22,8 +22,9 @@ constexpr double kLongestStep = 0.25;  // s: a stopped process that continues mu
 
 void FlyControls::step(scene::Pose& pose, const Input& input, double dt_s) {
     const double dt = std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kLongestStep) : 0.0;
-    speed_mps_ = std::clamp(speed_mps_ * std::pow(kWheelFactor, std::clamp(input.wheel, -20.0, 20.0)),
-                           kLeastSpeed, kMostSpeed);
+    speed_mps_ =
+        std::clamp(speed_mps_ * std::pow(kWheelFactor, std::clamp(input.wheel, -20.0, 20.0)),
+                   kLeastSpeed, kMostSpeed);
     const double turn = kStickDegrees * dt;
     const double yaw = pose.yaw_deg + input.look_px.x * kMouseDegrees + input.look_rate.x * turn;
     const double pitch =

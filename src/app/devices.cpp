@@ -16,12 +16,31 @@ constexpr std::string_view kHandBrake = "hand_brake";
 constexpr int kCameras = 9;
 
 constexpr std::array<std::pair<std::string_view, Action>, 25> kNames = {{
-    {"pause", Action::kPause}, {"step", Action::kStep}, {"slower", Action::kSlower}, {"faster", Action::kFaster}, {"real_time", Action::kRealTime},
-    {"earlier", Action::kEarlier}, {"later", Action::kLater}, {"more_wind", Action::kMoreWind}, {"less_wind", Action::kLessWind},
-    {"wind_left", Action::kWindLeft}, {"wind_right", Action::kWindRight}, {"next_camera", Action::kDriveCamera}, {"help", Action::kHelp},
-    {"line", Action::kLine}, {"panel", Action::kPanel}, {"recent", Action::kRecent}, {"full_screen", Action::kFullScreen},
-    {"screenshot", Action::kScreenshot}, {"sequence", Action::kSequence}, {"pose", Action::kPose}, {"flow", Action::kFlow}, {"reload", Action::kReload},
-    {"more_throttle", Action::kMoreThrottle}, {"less_throttle", Action::kLessThrottle}, {"quit", Action::kQuit},
+    {"pause", Action::kPause},
+    {"step", Action::kStep},
+    {"slower", Action::kSlower},
+    {"faster", Action::kFaster},
+    {"real_time", Action::kRealTime},
+    {"earlier", Action::kEarlier},
+    {"later", Action::kLater},
+    {"more_wind", Action::kMoreWind},
+    {"less_wind", Action::kLessWind},
+    {"wind_left", Action::kWindLeft},
+    {"wind_right", Action::kWindRight},
+    {"next_camera", Action::kDriveCamera},
+    {"help", Action::kHelp},
+    {"line", Action::kLine},
+    {"panel", Action::kPanel},
+    {"recent", Action::kRecent},
+    {"full_screen", Action::kFullScreen},
+    {"screenshot", Action::kScreenshot},
+    {"sequence", Action::kSequence},
+    {"pose", Action::kPose},
+    {"flow", Action::kFlow},
+    {"reload", Action::kReload},
+    {"more_throttle", Action::kMoreThrottle},
+    {"less_throttle", Action::kLessThrottle},
+    {"quit", Action::kQuit},
 }};
 
 } // namespace
@@ -60,7 +79,8 @@ void add_devices(const input::ControlReader& devices, Input& input) {
     using input::Axis;
     for (std::size_t i = 0; i < input::kAxes; ++i)
         input.axes[i] = devices.axis(static_cast<Axis>(i));
-    input.move += glm::dvec3(input.axis(Axis::kMoveRight), input.axis(Axis::kMoveUp), input.axis(Axis::kMoveForward));
+    input.move += glm::dvec3(input.axis(Axis::kMoveRight), input.axis(Axis::kMoveUp),
+                             input.axis(Axis::kMoveForward));
     input.look_rate += glm::dvec2(input.axis(Axis::kLookRight), input.axis(Axis::kLookUp));
     input.hand_brake = input.hand_brake || devices.held(kHandBrake);
     for (const std::string& name : devices.pressed())

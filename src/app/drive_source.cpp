@@ -22,26 +22,30 @@
 namespace sward::app {
 namespace {
 
-constexpr double kChaseBack = 1.4, kChaseUp_m = 1.5;   // of the vehicle's length; over its roof
-constexpr double kChaseFollow_per_s = 4;                 // how fast the chase camera comes round
+constexpr double kChaseBack = 1.4, kChaseUp_m = 1.5; // of the vehicle's length; over its roof
+constexpr double kChaseFollow_per_s = 4;             // how fast the chase camera comes round
 constexpr double kChasePitch_deg = -9;
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
 constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
 
-/// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A brake pedal brakes and does not drive back.
+/// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A
+/// brake pedal brakes and does not drive back.
 drive::Pedals pedals_of(const Input& asked) {
     using input::Axis;
-    return {std::clamp(asked.move.z + asked.axis(Axis::kThrottle), -1.0, 1.0), std::clamp(asked.move.x + asked.axis(Axis::kSteer), -1.0, 1.0),
+    return {std::clamp(asked.move.z + asked.axis(Axis::kThrottle), -1.0, 1.0),
+            std::clamp(asked.move.x + asked.axis(Axis::kSteer), -1.0, 1.0),
             asked.hand_brake ? 1.0 : std::max({0.0, asked.move.y, asked.axis(Axis::kBrake)})};
 }
 
 class DriveSource : public PoseSource {
 public:
-    DriveSource(drive::VehicleSpec spec, drive::Surface surface) : spec_(std::move(spec)), surface_(surface) {}
+    DriveSource(drive::VehicleSpec spec, drive::Surface surface)
+        : spec_(std::move(spec)), surface_(surface) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!vehicle_) // the land is the same for all of a flight
-            vehicle_.emplace(spec_, drive::DriveLand{moment.land.height, [this](double, double) { return surface_; }});
+            vehicle_.emplace(spec_, drive::DriveLand{moment.land.height,
+                                                     [this](double, double) { return surface_; }});
         if (!told_ || *told_ != pose.pose.position) { // a camera's key, or the beginning
             vehicle_->put(pose.pose.position.x, pose.pose.position.z, pose.pose.yaw_deg);
             eye_.begin(pose.pose.yaw_deg);
@@ -57,9 +61,12 @@ public:
         told_ = pose.pose.position;
     }
 
-    [[nodiscard]] std::optional<double> speed_mps() const override { return vehicle_ ? std::optional(glm::length(vehicle_->state().velocity_mps)) : std::nullopt; }
+    [[nodiscard]] std::optional<double> speed_mps() const override {
+        return vehicle_ ? std::optional(glm::length(vehicle_->state().velocity_mps)) : std::nullopt;
+    }
     [[nodiscard]] std::string note() const override {
-        return fmt::format("{} on {}, {} camera", spec_.name, kSurfaceNames[static_cast<std::size_t>(surface_)], kCameras[camera_]);
+        return fmt::format("{} on {}, {} camera", spec_.name,
+                           kSurfaceNames[static_cast<std::size_t>(surface_)], kCameras[camera_]);
     }
 
     /// Wheels, and the body over them.
@@ -70,14 +77,18 @@ public:
         const drive::VehicleState state = vehicle_->state();
         for (std::size_t i = 0; i < 4; ++i) {
             const double radius = spec_.axles[i / 2].radius_m;
-            balls.push_back({state.wheels[i].contact + state.turn * glm::dvec3(0, radius, 0), radius});
+            balls.push_back(
+                {state.wheels[i].contact + state.turn * glm::dvec3(0, radius, 0), radius});
         }
         const double radius = std::min({spec_.size_m.x, spec_.size_m.y, spec_.size_m.z}) / 2;
         const int rows = std::max(1, static_cast<int>(std::floor(spec_.size_m.z / (1.5 * radius))));
         for (int row = 0; row < rows; ++row)
             for (const double side : {-1.0, 1.0}) {
-                const double z = rows == 1 ? 0 : (static_cast<double>(row) / (rows - 1) - 0.5) * (spec_.size_m.z - 2 * radius);
-                const glm::dvec3 at(side * std::max(0.0, spec_.size_m.x / 2 - radius), spec_.clearance_m + radius, z);
+                const double z = rows == 1 ? 0
+                                           : (static_cast<double>(row) / (rows - 1) - 0.5) *
+                                                 (spec_.size_m.z - 2 * radius);
+                const glm::dvec3 at(side * std::max(0.0, spec_.size_m.x / 2 - radius),
+                                    spec_.clearance_m + radius, z);
                 balls.push_back({state.position + state.turn * at, radius});
             }
         return balls;
@@ -86,11 +97,14 @@ public:
     void add_objects(render::World& world) override {
         first_ = world.scene.objects.size();
         const glm::dvec3 paint(0.32, 0.03, 0.03), roof(0.05), rubber(0.03);
-        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) { add_model_mesh(world, name, mesh, colour); };
+        const auto add = [&](const char* name, const scene::Mesh& mesh, const glm::dvec3& colour) {
+            add_model_mesh(world, name, mesh, colour);
+        };
         add("vehicle/body", drive::body_mesh(spec_), paint);
         add("vehicle/roof", drive::roof_mesh(spec_), roof);
         for (std::size_t i = 0; i < 4; ++i)
-            add(i < 2 ? "vehicle/front wheel" : "vehicle/rear wheel", drive::wheel_mesh(spec_.axles[i / 2]), rubber);
+            add(i < 2 ? "vehicle/front wheel" : "vehicle/rear wheel",
+                drive::wheel_mesh(spec_.axles[i / 2]), rubber);
     }
 
     [[nodiscard]] std::vector<Body> objects() const override {
@@ -98,7 +112,8 @@ public:
         if (!vehicle_)
             return bodies;
         const auto add = [&](const glm::dvec3& at, const glm::dquat& turn) {
-            bodies.push_back({first_ + bodies.size(), glm::translate(glm::dmat4(1), at) * glm::mat4_cast(turn)});
+            bodies.push_back(
+                {first_ + bodies.size(), glm::translate(glm::dmat4(1), at) * glm::mat4_cast(turn)});
         };
         const drive::VehicleState state = vehicle_->state();
         add(state.position, state.turn);
@@ -114,13 +129,15 @@ private:
         Angles sight = angles_of(state.turn);
         glm::dvec3 at = state.position + state.turn * spec_.eye_m;
         if (camera_ == 1) {
-            const ModelEye::Chase chase{kChaseBack * spec_.size_m.z, spec_.size_m.y + kChaseUp_m, kChaseFollow_per_s, kChasePitch_deg};
+            const ModelEye::Chase chase{kChaseBack * spec_.size_m.z, spec_.size_m.y + kChaseUp_m,
+                                        kChaseFollow_per_s, kChasePitch_deg};
             eye_.come_round(sight.yaw, chase, moment.dt_s);
             return eye_.put_behind(view, state.position, chase, moment.land);
         }
         if (camera_ == 2) { // beside the front wheel, towards it
             const drive::AxleSpec& axle = spec_.axles[0];
-            at = state.position + state.turn * glm::dvec3(axle.track_m / 2 + 1.2, axle.radius_m + 0.5, -axle.ahead_m + 1.2);
+            at = state.position + state.turn * glm::dvec3(axle.track_m / 2 + 1.2,
+                                                          axle.radius_m + 0.5, -axle.ahead_m + 1.2);
             sight.yaw -= 45;
             sight.pitch -= 18;
         }
@@ -132,7 +149,7 @@ private:
     std::optional<drive::Vehicle> vehicle_;
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0;
-    std::size_t first_ = 0;          ///< of its objects in the scene
+    std::size_t first_ = 0; ///< of its objects in the scene
     ModelEye eye_;
 };
 
@@ -142,7 +159,8 @@ drive::VehicleSpec find_vehicle(const std::string& name) {
     return drive::load_vehicle(find_model("--drive", vehicles_directory(), name));
 }
 
-std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface) {
+std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec,
+                                              drive::Surface surface) {
     return std::make_unique<DriveSource>(spec, surface);
 }
 

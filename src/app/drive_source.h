@@ -11,8 +11,9 @@ namespace sward::app {
 /// The vehicle that --drive names: one that ships, or a preset's file. Throws Error.
 [[nodiscard]] drive::VehicleSpec find_vehicle(const std::string& name);
 
-/// A vehicle under the keyboard: W and S drive and brake, A and D steer, E is the hand brake. It begins where the pose stands, on the ground. It drives
-/// in simulated time.
-[[nodiscard]] std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec, drive::Surface surface);
+/// A vehicle under the keyboard: W and S drive and brake, A and D steer, E is the hand brake. It
+/// begins where the pose stands, on the ground. It drives in simulated time.
+[[nodiscard]] std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec,
+                                                            drive::Surface surface);
 
 } // namespace sward::app

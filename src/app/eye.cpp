@@ -27,7 +27,8 @@ std::optional<glm::dvec2> Eye::pixel(glm::dvec3 world) const {
     return 0.5 * size_ + focal_ / depth * glm::dvec2(glm::dot(from, right_), -glm::dot(from, up_));
 }
 
-std::optional<glm::dvec3> Eye::ground_under(glm::dvec2 pixel, const std::function<double(double, double)>& height,
+std::optional<glm::dvec3> Eye::ground_under(glm::dvec2 pixel,
+                                            const std::function<double(double, double)>& height,
                                             double reach_m) const {
     const glm::dvec2 off = (pixel - 0.5 * size_) / focal_;
     const glm::dvec3 ray = glm::normalize(ahead_ + right_ * off.x - up_ * off.y);

@@ -10,17 +10,21 @@
 
 namespace sward::app {
 
-/// A view as the overlays need it: world points to pixels and back. The projection is the renderer's own.
+/// A view as the overlays need it: world points to pixels and back. The projection is the
+/// renderer's own.
 class Eye {
 public:
     /// `pose` above the datum; `size` in the pixels that the mouse counts in.
     Eye(const scene::Pose& pose, glm::dvec2 size);
 
-    /// The pixel of a world point, right and down from the top left; nothing nearer than kNear_m ahead.
+    /// The pixel of a world point, right and down from the top left; nothing nearer than kNear_m
+    /// ahead.
     [[nodiscard]] std::optional<glm::dvec2> pixel(glm::dvec3 world) const;
-    /// Where the view through a pixel first meets a ground; nothing within `reach_m`. `height` is the ground's at x, z.
-    [[nodiscard]] std::optional<glm::dvec3> ground_under(glm::dvec2 pixel, const std::function<double(double, double)>& height,
-                                                         double reach_m) const;
+    /// Where the view through a pixel first meets a ground; nothing within `reach_m`. `height` is
+    /// the ground's at x, z.
+    [[nodiscard]] std::optional<glm::dvec3>
+    ground_under(glm::dvec2 pixel, const std::function<double(double, double)>& height,
+                 double reach_m) const;
     [[nodiscard]] glm::dvec3 position() const { return position_; }
     [[nodiscard]] glm::dvec3 ahead() const { return ahead_; }
     /// Metres that a pixel spans at a distance.

@@ -16,20 +16,24 @@ namespace sward::app {
 namespace {
 
 constexpr double kSlopeStep_m = 0.5; // to both sides: the finest posts
-constexpr double kLongPicture_s = 1; // in which the socket may have run over: what it holds then is old, and says nothing of now
+constexpr double kLongPicture_s =
+    1; // in which the socket may have run over: what it holds then is old, and says nothing of now
 
 double clock_s() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
 }
 
 class FeedSource : public PoseSource {
 public:
-    FeedSource(std::shared_ptr<feed::UdpReceiver> in, const scene::PlaceOnEarth& on_earth) : in_(std::move(in)), track_(on_earth) {}
+    FeedSource(std::shared_ptr<feed::UdpReceiver> in, const scene::PlaceOnEarth& on_earth)
+        : in_(std::move(in)), track_(on_earth) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         const double now = clock_s();
         in_->receive([&](const feed::Datagram& datagram) {
-            const feed::Packet packet = track_.take(datagram.bytes, datagram.sender, now - datagram.age_s);
+            const feed::Packet packet =
+                track_.take(datagram.bytes, datagram.sender, now - datagram.age_s);
             if (packet != feed::Packet::kTaken && packet != feed::Packet::kDoubled)
                 last_refused_ = packet;
         });
@@ -52,10 +56,18 @@ public:
     [[nodiscard]] std::string note() const override {
         std::string text;
         switch (track_.stream(now_)) {
-        case feed::Stream::kWaiting: text = fmt::format("feed: nothing yet at {}", in_->address()); break;
-        case feed::Stream::kLive: text = fmt::format("feed {:.3g} m/s", glm::length(track_.pose(now_)->velocity_mps)); break;
-        case feed::Stream::kPaused: text = fmt::format("feed stands since {:.0f} s: it says the same", track_.age_s(now_)); break;
-        case feed::Stream::kSilent: text = fmt::format("feed stands since {:.0f} s: it is silent", track_.age_s(now_)); break;
+        case feed::Stream::kWaiting:
+            text = fmt::format("feed: nothing yet at {}", in_->address());
+            break;
+        case feed::Stream::kLive:
+            text = fmt::format("feed {:.3g} m/s", glm::length(track_.pose(now_)->velocity_mps));
+            break;
+        case feed::Stream::kPaused:
+            text = fmt::format("feed stands since {:.0f} s: it says the same", track_.age_s(now_));
+            break;
+        case feed::Stream::kSilent:
+            text = fmt::format("feed stands since {:.0f} s: it is silent", track_.age_s(now_));
+            break;
         }
         if (const std::uint64_t count = refused(); count > 0)
             text += fmt::format(", {} refused (the last {})", count, feed::name_of(last_refused_));
@@ -83,7 +95,9 @@ private:
             base::log_info("native-fdm: packets come in");
         else
             base::log_warning("native-fdm: the stream stands: " +
-                              std::string(stream == feed::Stream::kPaused ? "every packet says the same" : "no packet for half a second"));
+                              std::string(stream == feed::Stream::kPaused
+                                              ? "every packet says the same"
+                                              : "no packet for half a second"));
     }
 
     std::shared_ptr<feed::UdpReceiver> in_;
@@ -95,8 +109,10 @@ private:
 
 class Reporting : public PoseSource {
 public:
-    Reporting(std::unique_ptr<PoseSource> source, std::shared_ptr<feed::UdpSender> out, GrassShare grass)
-        : source_(std::move(source)), feed_(dynamic_cast<const FeedSource*>(source_.get())), out_(std::move(out)), grass_(std::move(grass)) {}
+    Reporting(std::unique_ptr<PoseSource> source, std::shared_ptr<feed::UdpSender> out,
+              GrassShare grass)
+        : source_(std::move(source)), feed_(dynamic_cast<const FeedSource*>(source_.get())),
+          out_(std::move(out)), grass_(std::move(grass)) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         source_->advance(pose, moment);
@@ -104,7 +120,8 @@ public:
         report.count = count_++;
         report.time_s = moment.time_s;
         report.place = {pose.pose.position.x, pose.pose.position.z};
-        // What answers a packet is true of the place in that packet, not of where the picture has gone on to.
+        // What answers a packet is true of the place in that packet, not of where the picture has
+        // gone on to.
         if (const feed::FdmSample* sample = feed_ ? feed_->track().sample() : nullptr) {
             const glm::dvec3 said = feed_->track().said()->position;
             report.fed = true;
@@ -126,10 +143,13 @@ public:
 
 private:
     void describe(feed::GroundReport& report, const Land& land) const {
-        const auto height = [&](double x, double z) { return land.height(report.place.x + x, report.place.y + z); };
+        const auto height = [&](double x, double z) {
+            return land.height(report.place.x + x, report.place.y + z);
+        };
         report.ground_m = height(0, 0);
-        report.normal = glm::normalize(glm::dvec3(height(-kSlopeStep_m, 0) - height(kSlopeStep_m, 0), 2 * kSlopeStep_m,
-                                                  height(0, -kSlopeStep_m) - height(0, kSlopeStep_m)));
+        report.normal = glm::normalize(
+            glm::dvec3(height(-kSlopeStep_m, 0) - height(kSlopeStep_m, 0), 2 * kSlopeStep_m,
+                       height(0, -kSlopeStep_m) - height(0, kSlopeStep_m)));
         report.surface = feed::class_of(grass_(report.place, glm::vec3(report.normal)));
         const glm::dvec2 wind = land.wind(report.place.x, report.place.y);
         report.wind_mps = {wind.x, 0, wind.y};
@@ -155,13 +175,17 @@ FeedLinks open_feed(const Options& options) {
     return links;
 }
 
-std::unique_ptr<PoseSource> make_feed_source(std::shared_ptr<feed::UdpReceiver> in, const scene::PlaceOnEarth& on_earth) {
+std::unique_ptr<PoseSource> make_feed_source(std::shared_ptr<feed::UdpReceiver> in,
+                                             const scene::PlaceOnEarth& on_earth) {
     if (!on_earth)
-        throw base::Error(base::ExitCode::kUsage, "--native-fdm: found a terrain without a place on Earth, expected elevation with a CRS, or .hgt");
+        throw base::Error(base::ExitCode::kUsage,
+                          "--native-fdm: found a terrain without a place on Earth, expected "
+                          "elevation with a CRS, or .hgt");
     return std::make_unique<FeedSource>(std::move(in), on_earth);
 }
 
-std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source, std::shared_ptr<feed::UdpSender> out, GrassShare grass) {
+std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source,
+                                        std::shared_ptr<feed::UdpSender> out, GrassShare grass) {
     return std::make_unique<Reporting>(std::move(source), std::move(out), std::move(grass));
 }
 

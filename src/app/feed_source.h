@@ -8,9 +8,13 @@
 
 namespace sward::app {
 
-/// An aircraft that another program flies. Throws Error(kUsage) where the terrain has no place on Earth.
-[[nodiscard]] std::unique_ptr<PoseSource> make_feed_source(std::shared_ptr<feed::UdpReceiver> in, const scene::PlaceOnEarth& on_earth);
+/// An aircraft that another program flies. Throws Error(kUsage) where the terrain has no place on
+/// Earth.
+[[nodiscard]] std::unique_ptr<PoseSource> make_feed_source(std::shared_ptr<feed::UdpReceiver> in,
+                                                           const scene::PlaceOnEarth& on_earth);
 /// The same source, that tells the other program once a picture what lies under it.
-[[nodiscard]] std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source, std::shared_ptr<feed::UdpSender> out, GrassShare grass);
+[[nodiscard]] std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source,
+                                                      std::shared_ptr<feed::UdpSender> out,
+                                                      GrassShare grass);
 
 } // namespace sward::app

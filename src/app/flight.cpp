@@ -19,7 +19,7 @@
 namespace sward::app {
 namespace {
 
-constexpr double kSpeedFade_s = 0.2;    // of the speed that is shown
+constexpr double kSpeedFade_s = 0.2; // of the speed that is shown
 
 /// Of the scene and its pose: `sward view` then names both in its messages.
 std::vector<std::string> camera_names(const scene::Scene& scene) {
@@ -36,11 +36,15 @@ bool same(const MeanWind& a, const MeanWind& b) {
 } // namespace
 
 Flight::Flight(const FlightParts& parts)
-    : parts_(parts), options_(parts.options), window_(parts.window), panel_(parts.panel), field_(parts.field), source_(parts.source),
-      clock_(parts.replay != nullptr ? std::max(options_.time_s, parts.replay->start_s) : options_.time_s, options_.step_s, options_.fixed_step ? std::optional(options_.step_s) : std::nullopt),
-      arrows_(parts.scene.wind.arrows, parts.scene.file), weather_(parts.scene, parts.latitude_deg), settings_(options_.frame),
-      pose_{above_datum(parts.start)}, gpu_(gl::context_info().renderer), cameras_(camera_names(parts.scene)),
-      recent_(read_recent(recent_file())), sampler_(options_.time_s), before_(pose_.pose.position), last_(Clock::now()) {
+    : parts_(parts), options_(parts.options), window_(parts.window), panel_(parts.panel),
+      field_(parts.field), source_(parts.source),
+      clock_(parts.replay != nullptr ? std::max(options_.time_s, parts.replay->start_s)
+                                     : options_.time_s,
+             options_.step_s, options_.fixed_step ? std::optional(options_.step_s) : std::nullopt),
+      arrows_(parts.scene.wind.arrows, parts.scene.file), weather_(parts.scene, parts.latitude_deg),
+      settings_(options_.frame), pose_{above_datum(parts.start)}, gpu_(gl::context_info().renderer),
+      cameras_(camera_names(parts.scene)), recent_(read_recent(recent_file())),
+      sampler_(options_.time_s), before_(pose_.pose.position), last_(Clock::now()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(1, parts.channels.size()); ++i)
         views_.emplace_back(field_);
     say(parts.word);
@@ -111,8 +115,9 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
         speed_mps_ += (glm::length(way) / dt - speed_mps_) * std::min(1.0, dt / kSpeedFade_s);
 }
 
-/// A flight that is kept, or shown again, is simulated by its steps, however many fall into a picture: its pictures are then the same whatever their
-/// rate. Any other one is simulated once a picture, and no more than a slow machine can.
+/// A flight that is kept, or shown again, is simulated by its steps, however many fall into a
+/// picture: its pictures are then the same whatever their rate. Any other one is simulated once a
+/// picture, and no more than a slow machine can.
 void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
     if (const std::vector<Ball> bodies = source_.bodies(); !bodies.empty())
         field_.set_colliders(bodies, clock_.time_s());
@@ -164,16 +169,35 @@ std::string Flight::line() const {
 
 void Flight::act(const Press& press) {
     switch (press.action) {
-    case Action::kPause: clock_.toggle_pause(); break;
-    case Action::kStep: clock_.single_step(); break;
-    case Action::kSlower: clock_.slower(); break;
-    case Action::kFaster: clock_.faster(); break;
-    case Action::kRealTime: clock_.real_time(); break;
-    case Action::kCamera: go_to_camera(press.number); break;
-    case Action::kPose: print_pose(); break;
-    case Action::kReload: reload(); break;
-    case Action::kSequence: toggle_sequence(); break;
-    default: act_on_view(press);
+    case Action::kPause:
+        clock_.toggle_pause();
+        break;
+    case Action::kStep:
+        clock_.single_step();
+        break;
+    case Action::kSlower:
+        clock_.slower();
+        break;
+    case Action::kFaster:
+        clock_.faster();
+        break;
+    case Action::kRealTime:
+        clock_.real_time();
+        break;
+    case Action::kCamera:
+        go_to_camera(press.number);
+        break;
+    case Action::kPose:
+        print_pose();
+        break;
+    case Action::kReload:
+        reload();
+        break;
+    case Action::kSequence:
+        toggle_sequence();
+        break;
+    default:
+        act_on_view(press);
     }
     Weather wanted = weather_;
     wanted.act(press.action);
@@ -181,17 +205,33 @@ void Flight::act(const Press& press) {
 }
 
 void Flight::act_on_view(const Press& press) {
-    if (!parts_.channels.empty() && (press.action == Action::kFlow || press.action == Action::kArrows))
+    if (!parts_.channels.empty() &&
+        (press.action == Action::kFlow || press.action == Action::kArrows))
         return say("the wind is not drawn over channels");
     switch (press.action) {
-    case Action::kFlow: flow_ = !flow_; break;
-    case Action::kArrows: arrows_.shown = !arrows_.shown; break;
-    case Action::kHelp: panel_.help = !panel_.help; break;
-    case Action::kLine: line_ = !line_; break;
-    case Action::kPanel: panel_.shown = !panel_.shown; break;
-    case Action::kRecent: panel_.recent = !panel_.recent; break;
-    case Action::kFullScreen: window_.toggle_full_screen(); break;
-    default: break;
+    case Action::kFlow:
+        flow_ = !flow_;
+        break;
+    case Action::kArrows:
+        arrows_.shown = !arrows_.shown;
+        break;
+    case Action::kHelp:
+        panel_.help = !panel_.help;
+        break;
+    case Action::kLine:
+        line_ = !line_;
+        break;
+    case Action::kPanel:
+        panel_.shown = !panel_.shown;
+        break;
+    case Action::kRecent:
+        panel_.recent = !panel_.recent;
+        break;
+    case Action::kFullScreen:
+        window_.toggle_full_screen();
+        break;
+    default:
+        break;
     }
 }
 
@@ -244,7 +284,8 @@ void Flight::take_screenshot() {
 
 void Flight::toggle_sequence() {
     if (sequence_) {
-        say(fmt::format("sequence: {} pictures in {}", sequence_->count(), sequence_->folder().string()));
+        say(fmt::format("sequence: {} pictures in {}", sequence_->count(),
+                        sequence_->folder().string()));
         base::log_info(word_);
         sequence_.reset();
         return;

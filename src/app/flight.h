@@ -32,14 +32,15 @@ namespace sward::app {
 struct FlightParts {
     const Options& options;
     const scene::Scene& scene;
-    const std::vector<Channel>& channels; ///< pictures of every moment; none: one that fills the window
+    const std::vector<Channel>&
+        channels; ///< pictures of every moment; none: one that fills the window
     scene::Pose start;
     double latitude_deg = SunDay::kUsualLatitude_deg;
     Window& window;
     Panel& panel;
     Field& field;
     PoseSource& source;
-    std::string word; ///< shown at first; empty: none
+    std::string word;                     ///< shown at first; empty: none
     const FlightRecord* replay = nullptr; ///< what `source` shows, where it is a record
     RecordWriter* record = nullptr;       ///< what the flight is kept in, where it is
 };
@@ -49,8 +50,9 @@ class Flight {
 public:
     explicit Flight(const FlightParts& parts);
 
-    /// Draws until the window is closed, or for options.exit_after frames: nothing; or until another scene is asked for, which can be read.
-    /// Throws Stopped where a picture that takes long was ended.
+    /// Draws until the window is closed, or for options.exit_after frames: nothing; or until
+    /// another scene is asked for, which can be read. Throws Stopped where a picture that takes
+    /// long was ended.
     [[nodiscard]] std::optional<scene::Scene> run();
 
 private:
@@ -106,7 +108,7 @@ private:
     std::string word_;
     bool flow_ = false, line_ = true;
     double speed_mps_ = 0, frame_ms_ = 0;
-    glm::dvec3 before_{0};    ///< where the eye was in the picture before
+    glm::dvec3 before_{0}; ///< where the eye was in the picture before
     Clock::time_point last_, drawing_, counted_{}, said_;
 };
 

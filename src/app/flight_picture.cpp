@@ -17,11 +17,12 @@
 namespace sward::app {
 namespace {
 
-constexpr int kMostWindSteps = 4;       // of the local window in a frame: a slow GPU slows the wind, not the flight
-constexpr int kMostPhysicsSteps = 4;    // likewise of the blades
-constexpr double kStatsEvery_s = 0.25;  // reading counters waits for the GPU
+constexpr int kMostWindSteps =
+    4; // of the local window in a frame: a slow GPU slows the wind, not the flight
+constexpr int kMostPhysicsSteps = 4;   // likewise of the blades
+constexpr double kStatsEvery_s = 0.25; // reading counters waits for the GPU
 constexpr int kLargestSide = 16384;
-constexpr double kLong_s = 0.3;         // a picture that takes longer is worth a word, and may be ended
+constexpr double kLong_s = 0.3; // a picture that takes longer is worth a word, and may be ended
 constexpr GLuint64 kWait_ns = 30'000'000;
 constexpr double kWord_s = 4;
 
@@ -44,11 +45,16 @@ void Flight::draw_views(const std::vector<Camera>& cameras, glm::ivec2 size) {
         glClear(GL_COLOR_BUFFER_BIT);
     }
     for (std::size_t i = 0; i < views_.size(); ++i) {
-        const Channel whole{.name = {}, .size = {settings_.width, settings_.height}, .at = {0, 0}, .turn = {}, .rim = {}};
+        const Channel whole{.name = {},
+                            .size = {settings_.width, settings_.height},
+                            .at = {0, 0},
+                            .turn = {},
+                            .rim = {}};
         const Channel& channel = parts_.channels.empty() ? whole : parts_.channels[i];
         render::Access::settings(views_[i]) = settings_;
         // A window larger than any picture keeps a rim.
-        views_[i].draw(cameras[i], {channel.size.x, channel.size.y, 0, channel.at.x, std::max(0, size.y - channel.at.y - channel.size.y)});
+        views_[i].draw(cameras[i], {channel.size.x, channel.size.y, 0, channel.at.x,
+                                    std::max(0, size.y - channel.at.y - channel.size.y)});
     }
 }
 
@@ -71,7 +77,8 @@ void Flight::draw(glm::ivec2 size, const Input& input) {
     }
 }
 
-/// Between the passes of a picture: the window is heard, and if the picture takes long it says so and may be ended.
+/// Between the passes of a picture: the window is heard, and if the picture takes long it says so
+/// and may be ended.
 void Flight::take_breath() {
     window_.listen();
     if (seconds_since(drawing_) < kLong_s)
@@ -86,7 +93,8 @@ void Flight::take_breath() {
     glDeleteSync(fence);
     if (window_.asked_to_end())
         throw Stopped{};
-    window_.set_title(fmt::format("Sward - drawing for {:.0f} s, Esc ends", std::ceil(seconds_since(drawing_))));
+    window_.set_title(
+        fmt::format("Sward - drawing for {:.0f} s, Esc ends", std::ceil(seconds_since(drawing_))));
 }
 
 void Flight::present() {

@@ -37,9 +37,12 @@ public:
             text.remove_prefix(std::min(end + 1, text.size()));
         }
     }
-    [[nodiscard]] std::string_view word(std::size_t i) const { return i < words_.size() ? words_[i] : std::string_view(); }
+    [[nodiscard]] std::string_view word(std::size_t i) const {
+        return i < words_.size() ? words_[i] : std::string_view();
+    }
     [[nodiscard]] base::Error wrong(std::string_view found, const std::string& expected) const {
-        return base::input_error(ExitCode::kBadInput, file_, number_, "record", std::string(found), expected);
+        return base::input_error(ExitCode::kBadInput, file_, number_, "record", std::string(found),
+                                 expected);
     }
     void require(std::size_t count) const {
         if (words_.size() != count)
@@ -49,7 +52,8 @@ public:
         double value = 0;
         const std::string_view text = word(i);
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size() || !(value >= least && value <= most))
+        if (error != std::errc() || end != text.data() + text.size() ||
+            !(value >= least && value <= most))
             throw wrong(text, fmt::format("a number from {} to {}", least, most));
         return value;
     }
@@ -82,10 +86,14 @@ void take_line(const Line& line, FlightRecord& record) {
         record.steps.push_back(step_of(line));
     } else if (kind == "sun") {
         line.require(3);
-        record.events.push_back({record.steps.size(), Sun{line.number(1, -kAngle_deg, kAngle_deg), line.number(2, -90, 90)}});
+        record.events.push_back({record.steps.size(), Sun{line.number(1, -kAngle_deg, kAngle_deg),
+                                                          line.number(2, -90, 90)}});
     } else if (kind == "wind") {
         line.require(4);
-        record.events.push_back({record.steps.size(), MeanWind{line.number(1, 0, 60), line.number(2, -kAngle_deg, kAngle_deg), line.number(3, 0, 1)}});
+        record.events.push_back(
+            {record.steps.size(),
+             MeanWind{line.number(1, 0, 60), line.number(2, -kAngle_deg, kAngle_deg),
+                      line.number(3, 0, 1)}});
     } else if (kind == "start") {
         line.require(2);
         record.start_s = line.number(1, 0, kTime_s);
@@ -139,7 +147,8 @@ FlightRecord parse_record(std::string_view text, const fs::path& file) {
         text.remove_prefix(end + 1);
         if (number == 1) {
             if (whole != kHead)
-                throw base::input_error(ExitCode::kBadInput, file, 1, "record", std::string(whole.substr(0, 100)), std::string(kHead));
+                throw base::input_error(ExitCode::kBadInput, file, 1, "record",
+                                        std::string(whole.substr(0, 100)), std::string(kHead));
         } else if (whole.starts_with("scene ")) {
             record.scene = base::printable(whole.substr(6), 1024);
         } else {
@@ -158,26 +167,31 @@ FlightRecord read_record(const fs::path& file) {
 RecordWriter::RecordWriter(fs::path file, const std::string& scene, double start_s)
     : path_(std::move(file)), file_(std::fopen(path_.c_str(), "we"), std::fclose) {
     if (!file_)
-        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record", std::strerror(errno), "a file that can be made");
-    write(fmt::format("{}\nscene {}\nrate {}\nstart {}\n", kHead, base::printable(scene, 1024), kRecordRate, start_s));
+        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record",
+                                std::strerror(errno), "a file that can be made");
+    write(fmt::format("{}\nscene {}\nrate {}\nstart {}\n", kHead, base::printable(scene, 1024),
+                      kRecordRate, start_s));
     flush();
 }
 
 void RecordWriter::write(const std::string& line) {
     if (std::fwrite(line.data(), 1, line.size(), file_.get()) != line.size())
-        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record", std::strerror(errno), "room on the disk");
+        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record",
+                                std::strerror(errno), "room on the disk");
 }
 
 void RecordWriter::flush() {
     unflushed_ = 0;
     if (std::fflush(file_.get()) != 0)
-        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record", std::strerror(errno), "room on the disk");
+        throw base::input_error(ExitCode::kIo, path_, 0, "cannot write the record",
+                                std::strerror(errno), "room on the disk");
 }
 
 void RecordWriter::add(const RecordStep& s) {
     // fmt's shortest form that reads back to the same double.
-    write(fmt::format("step {} {} {} {} {} {} {} {} {} {} {} {} {}\n", s.position.x, s.position.y, s.position.z, s.yaw_deg, s.pitch_deg, s.roll_deg, s.fov_deg,
-                      s.move.x, s.move.y, s.move.z, s.look_px.x, s.look_px.y, s.wheel));
+    write(fmt::format("step {} {} {} {} {} {} {} {} {} {} {} {} {}\n", s.position.x, s.position.y,
+                      s.position.z, s.yaw_deg, s.pitch_deg, s.roll_deg, s.fov_deg, s.move.x,
+                      s.move.y, s.move.z, s.look_px.x, s.look_px.y, s.wheel));
     if (++unflushed_ >= kRecordRate)
         flush();
 }

@@ -21,7 +21,8 @@ inline constexpr int kRecordRate = 60;
 struct RecordStep {
     glm::dvec3 position{0}; ///< above the datum
     double yaw_deg = 0, pitch_deg = 0, roll_deg = 0, fov_deg = 60;
-    // What was asked for in the picture that the step belongs to; the look and the wheel stand in the first of its steps.
+    // What was asked for in the picture that the step belongs to; the look and the wheel stand in
+    // the first of its steps.
     glm::dvec3 move{0};
     glm::dvec2 look_px{0};
     double wheel = 0;
@@ -38,27 +39,30 @@ struct RecordEvent {
 struct FlightRecord {
     std::string scene; ///< that it was flown in, for people
     double start_s = 0;
-    std::vector<RecordStep> steps; ///< one or more
+    std::vector<RecordStep> steps;   ///< one or more
     std::vector<RecordEvent> events; ///< in the order of their steps
 
-    [[nodiscard]] double time_of(std::size_t step) const { return start_s + static_cast<double>(step) / kRecordRate; }
+    [[nodiscard]] double time_of(std::size_t step) const {
+        return start_s + static_cast<double>(step) / kRecordRate;
+    }
     [[nodiscard]] double end_s() const { return time_of(steps.size() - 1); }
     /// The last step at or before a time; held at both ends.
     [[nodiscard]] std::size_t step_at(double time_s) const;
-    /// Between two steps on the straight line, by the shortest turn. Times that differ by less than a millionth of a step are one time, so that
-    /// 5 / 30 s and 24 / 144 s give the same bits.
+    /// Between two steps on the straight line, by the shortest turn. Times that differ by less than
+    /// a millionth of a step are one time, so that 5 / 30 s and 24 / 144 s give the same bits.
     [[nodiscard]] ViewPose pose_at(double time_s) const;
 
 private:
     [[nodiscard]] double steps_to(double time_s) const;
 };
 
-/// Reads a record. A last line that is torn is left out: the program that wrote it may have been killed. Throws Error: kBadInput with file and line,
-/// kOverLimit, kIo.
+/// Reads a record. A last line that is torn is left out: the program that wrote it may have been
+/// killed. Throws Error: kBadInput with file and line, kOverLimit, kIo.
 [[nodiscard]] FlightRecord parse_record(std::string_view text, const std::filesystem::path& file);
 [[nodiscard]] FlightRecord read_record(const std::filesystem::path& file);
 
-/// A record in the making. It grows as the flight goes on; what a killed program loses is the last second.
+/// A record in the making. It grows as the flight goes on; what a killed program loses is the last
+/// second.
 class RecordWriter {
 public:
     /// Begins the file anew. Throws Error(kIo).

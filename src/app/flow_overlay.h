@@ -13,7 +13,8 @@ struct Land {
     std::function<glm::dvec2(double x, double z)> wind; ///< m/s, east and south, now
 };
 
-/// Streaks along the wind just above the ground, coloured by speed, with their scale in a corner. Within an ImGui frame.
+/// Streaks along the wind just above the ground, coloured by speed, with their scale in a corner.
+/// Within an ImGui frame.
 void draw_flow(const Eye& eye, const Land& land, double time_s);
 
 } // namespace sward::app

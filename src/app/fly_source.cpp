@@ -23,13 +23,13 @@
 namespace sward::app {
 namespace {
 
-constexpr double kNearGround_m = 4;                    // a pose lower than this begins on its wheels
-constexpr double kKeyThrow = 0.45;                     // of the whole: keys know no half
-constexpr double kKeyFollow_per_s = 5;                 // how fast the stick goes where a key sends it
+constexpr double kNearGround_m = 4;    // a pose lower than this begins on its wheels
+constexpr double kKeyThrow = 0.45;     // of the whole: keys know no half
+constexpr double kKeyFollow_per_s = 5; // how fast the stick goes where a key sends it
 constexpr double kThrottleStep = 0.05;
-constexpr double kChaseBack = 1.9, kChaseUp = 0.35;    // of its length
+constexpr double kChaseBack = 1.9, kChaseUp = 0.35; // of its length
 constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -8;
-constexpr double kBallRadius_m = 0.3;                  // of a wheel, as the grass feels it
+constexpr double kBallRadius_m = 0.3; // of a wheel, as the grass feels it
 constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
 
 class FlySource : public PoseSource {
@@ -58,13 +58,19 @@ public:
         told_ = pose.pose.position;
     }
 
-    [[nodiscard]] std::optional<double> speed_mps() const override { return aeroplane_ ? std::optional(glm::length(aeroplane_->state().velocity_mps)) : std::nullopt; }
+    [[nodiscard]] std::optional<double> speed_mps() const override {
+        return aeroplane_ ? std::optional(glm::length(aeroplane_->state().velocity_mps))
+                          : std::nullopt;
+    }
     [[nodiscard]] std::string note() const override {
         if (!aeroplane_)
             return spec_.name;
         const fly::AeroplaneState state = aeroplane_->state();
-        const char* const word = state.crashed ? ", crashed" : state.stalled && !state.on_ground ? ", STALL" : "";
-        return fmt::format("{} {:.0f} kt, throttle {:.0f} %{}", spec_.name, state.airspeed_mps * 3600 / 1852, throttle_ * 100, word);
+        const char* const word = state.crashed                       ? ", crashed"
+                                 : state.stalled && !state.on_ground ? ", STALL"
+                                                                     : "";
+        return fmt::format("{} {:.0f} kt, throttle {:.0f} %{}", spec_.name,
+                           state.airspeed_mps * 3600 / 1852, throttle_ * 100, word);
     }
 
     /// Its wheels.
@@ -74,7 +80,9 @@ public:
         const fly::AeroplaneState state = aeroplane_->state();
         const double low = kBallRadius_m - spec_.gear_m, half = spec_.gear_track_m / 2;
         std::vector<Ball> balls;
-        for (const glm::dvec3& at : {glm::dvec3(0, low, -spec_.gear_ahead_m), glm::dvec3(-half, low, spec_.gear_back_m), glm::dvec3(half, low, spec_.gear_back_m)})
+        for (const glm::dvec3& at :
+             {glm::dvec3(0, low, -spec_.gear_ahead_m), glm::dvec3(-half, low, spec_.gear_back_m),
+              glm::dvec3(half, low, spec_.gear_back_m)})
             balls.push_back({state.position + state.turn * at, kBallRadius_m});
         return balls;
     }
@@ -88,7 +96,8 @@ public:
         if (!aeroplane_)
             return {};
         const fly::AeroplaneState state = aeroplane_->state();
-        return {{first_, glm::translate(glm::dmat4(1), state.position) * glm::mat4_cast(state.turn)}};
+        return {
+            {first_, glm::translate(glm::dmat4(1), state.position) * glm::mat4_cast(state.turn)}};
     }
 
 private:
@@ -104,21 +113,27 @@ private:
         eye_.begin(pose.yaw_deg);
     }
 
-    /// Keys move the stick some way, and it goes there in a moment; a device moves it as far as it is moved.
+    /// Keys move the stick some way, and it goes there in a moment; a device moves it as far as it
+    /// is moved.
     fly::Stick stick_of(const PoseMoment& moment) {
         using input::Axis;
         const Input& asked = moment.input;
         const glm::dvec3 wanted = glm::dvec3(asked.move.x, -asked.move.z, asked.move.y) * kKeyThrow;
         stick_ += (wanted - stick_) * (1 - std::exp(-kKeyFollow_per_s * moment.dt_s));
-        const auto with = [&](double key, Axis axis) { return std::clamp(key + asked.axis(axis), -1.0, 1.0); };
-        return {with(stick_.x, Axis::kRoll), with(stick_.y, Axis::kPitch), with(stick_.z, Axis::kYaw), std::clamp(throttle_ + asked.axis(Axis::kThrottle), 0.0, 1.0),
+        const auto with = [&](double key, Axis axis) {
+            return std::clamp(key + asked.axis(axis), -1.0, 1.0);
+        };
+        return {with(stick_.x, Axis::kRoll), with(stick_.y, Axis::kPitch),
+                with(stick_.z, Axis::kYaw),
+                std::clamp(throttle_ + asked.axis(Axis::kThrottle), 0.0, 1.0),
                 std::max(asked.axis(Axis::kBrake), throttle_ < kThrottleStep / 2 ? 1.0 : 0.0)};
     }
 
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const fly::AeroplaneState state = aeroplane_->state();
         const Angles sight = angles_of(state.turn);
-        const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m, kChaseFollow_per_s, kChasePitch_deg};
+        const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m,
+                                    kChaseFollow_per_s, kChasePitch_deg};
         if (camera_ == 1) {
             eye_.come_round(sight.yaw, chase, moment.dt_s);
             eye_.put_behind(view, state.position, chase, moment.land);
@@ -128,9 +143,9 @@ private:
 
     fly::AeroplaneSpec spec_;
     std::optional<fly::Aeroplane> aeroplane_;
-    std::optional<glm::dvec3> told_; ///< where the eye was put last
+    std::optional<glm::dvec3> told_;     ///< where the eye was put last
     std::size_t camera_ = 0, first_ = 0; ///< of its objects in the scene
-    glm::dvec3 stick_{0};            ///< as the keys have it: roll, pitch, yaw
+    glm::dvec3 stick_{0};                ///< as the keys have it: roll, pitch, yaw
     ModelEye eye_;
     double throttle_ = 0;
 };

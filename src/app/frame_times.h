@@ -10,7 +10,8 @@ namespace sward::app {
 class FrameTimes {
 public:
     void add(double ms);
-    /// The time that a share of the last pictures did not exceed (0.5: the median), nearest rank; 0 before the first.
+    /// The time that a share of the last pictures did not exceed (0.5: the median), nearest rank; 0
+    /// before the first.
     [[nodiscard]] double percentile(double share) const;
 
     static constexpr std::size_t kWindow = 256; ///< pictures: four seconds at 60 a second

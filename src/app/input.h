@@ -20,13 +20,16 @@ struct Input {
     glm::dvec2 look_rate{0, 0}; ///< sticks: right and up, -1..1
     double wheel = 0;           ///< of the mouse, notches, up positive
     bool fast = false;
-    bool hand_brake = false;    ///< a button that is held
+    bool hand_brake = false;                 ///< a button that is held
     std::array<double, input::kAxes> axes{}; ///< of the devices that controls.toml binds
-    std::vector<Press> presses; ///< in their order
+    std::vector<Press> presses;              ///< in their order
 
-    [[nodiscard]] double axis(input::Axis which) const { return axes[static_cast<std::size_t>(which)]; }
+    [[nodiscard]] double axis(input::Axis which) const {
+        return axes[static_cast<std::size_t>(which)];
+    }
     [[nodiscard]] bool has(Action action) const {
-        return std::any_of(presses.begin(), presses.end(), [&](const Press& press) { return press.action == action; });
+        return std::any_of(presses.begin(), presses.end(),
+                           [&](const Press& press) { return press.action == action; });
     }
 };
 

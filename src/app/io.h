@@ -24,8 +24,10 @@ namespace sward::app {
 /// Error.
 [[nodiscard]] scene::Heightfield load_elevation(const scene::TerrainSpec& spec);
 /// Density mask, laid over the terrain. The core build reads none: throws Error(kBadInput).
-[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground);
-/// x, z of a latitude and longitude in the terrain's frame; null where the terrain has no place on Earth.
+[[nodiscard]] scene::DensityMask load_mask(const scene::TerrainSpec& spec,
+                                           const scene::Heightfield& ground);
+/// x, z of a latitude and longitude in the terrain's frame; null where the terrain has no place on
+/// Earth.
 [[nodiscard]] scene::PlaceOnEarth place_on_earth(const scene::Heightfield& ground);
 
 /// A mesh that a scene names. The core build reads none: throws Error(kBadInput).

@@ -27,11 +27,14 @@ scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Height
 scene::PlaceOnEarth place_on_earth(const scene::Heightfield& ground) {
     if (!ground.origin)
         return {};
-    return [frame = *ground.origin](double latitude, double longitude) { return scene::linear_place(frame, latitude, longitude); };
+    return [frame = *ground.origin](double latitude, double longitude) {
+        return scene::linear_place(frame, latitude, longitude);
+    };
 }
 
 scene::Mesh load_mesh(const std::filesystem::path& path) {
-    throw base::input_error(ExitCode::kBadInput, path, 0, "mesh", "glTF", "none (the core build reads no meshes)");
+    throw base::input_error(ExitCode::kBadInput, path, 0, "mesh", "glTF",
+                            "none (the core build reads no meshes)");
 }
 
 std::vector<std::string_view> picture_extensions() {
@@ -54,7 +57,8 @@ void write_linear(const std::filesystem::path& path, const scene::Image&) {
 }
 
 scene::Image read_linear(const std::filesystem::path& path) {
-    throw base::input_error(ExitCode::kBadInput, path, 0, "picture", "EXR", "none (the core build reads no pictures)");
+    throw base::input_error(ExitCode::kBadInput, path, 0, "picture", "EXR",
+                            "none (the core build reads no pictures)");
 }
 
 } // namespace sward::app

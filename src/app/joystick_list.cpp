@@ -37,9 +37,13 @@ void list_joysticks() {
     const std::vector<input::Joystick> joysticks = input::list_joysticks(unreadable);
     for (const input::Joystick& joystick : joysticks) {
         const input::DeviceBinding* const bound = map.find(joystick.guid);
-        const std::string use = bound ? fmt::format("{} axes and {} buttons in {}", bound->axes.size(), bound->buttons.size(), where) : "not in " + where;
-        fmt::print("{}  {}: {} axes, {} buttons, {} hats, {}; {}\n", joystick.guid, base::printable(joystick.name), joystick.axes, joystick.buttons,
-                   joystick.hats, joystick.node.native(), use);
+        const std::string use = bound
+                                    ? fmt::format("{} axes and {} buttons in {}",
+                                                  bound->axes.size(), bound->buttons.size(), where)
+                                    : "not in " + where;
+        fmt::print("{}  {}: {} axes, {} buttons, {} hats, {}; {}\n", joystick.guid,
+                   base::printable(joystick.name), joystick.axes, joystick.buttons, joystick.hats,
+                   joystick.node.native(), use);
     }
     for (const input::Joystick& joystick : joysticks)
         if (map.find(joystick.guid) == nullptr)
@@ -47,7 +51,8 @@ void list_joysticks() {
     if (joysticks.empty())
         base::log_info("joysticks: none that can be read");
     if (unreadable > 0)
-        base::log_info(fmt::format("joysticks: {} devices of /dev/input may not be read by this user", unreadable));
+        base::log_info(fmt::format(
+            "joysticks: {} devices of /dev/input may not be read by this user", unreadable));
     flush_results();
 }
 

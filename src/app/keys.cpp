@@ -17,28 +17,40 @@ constexpr std::array kBindings = {
     KeyBinding{Action::kSlower, key::kMinus, "-", "time at half its pace, to a sixteenth"},
     KeyBinding{Action::kFaster, key::kEqual, "=", "time at twice its pace, to four times"},
     KeyBinding{Action::kRealTime, key::kBackspace, "Backspace", "time at the clock's pace"},
-    KeyBinding{Action::kEarlier, key::kLeftBracket, "[", "a quarter of an hour earlier in the day", 0, 1, true},
-    KeyBinding{Action::kLater, key::kRightBracket, "]", "a quarter of an hour later in the day", 0, 1, true},
+    KeyBinding{Action::kEarlier, key::kLeftBracket, "[", "a quarter of an hour earlier in the day",
+               0, 1, true},
+    KeyBinding{Action::kLater, key::kRightBracket, "]", "a quarter of an hour later in the day", 0,
+               1, true},
     KeyBinding{Action::kMoreWind, key::kPageUp, "PgUp", "wind stronger by 1 m/s", 0, 1, true},
     KeyBinding{Action::kLessWind, key::kPageDown, "PgDn", "wind weaker by 1 m/s", 0, 1, true},
-    KeyBinding{Action::kWindLeft, key::kHome, "Home", "wind from 10 degrees further left", 0, 1, true},
-    KeyBinding{Action::kWindRight, key::kEnd, "End", "wind from 10 degrees further right", 0, 1, true},
-    KeyBinding{Action::kCamera, '1', "1-9", "the scene's cameras, in the order of their names", 0, 9},
-    KeyBinding{Action::kDriveCamera, 'C', "C", "driving, flying: the next camera of driver or pilot, chase, wheel"},
+    KeyBinding{Action::kWindLeft, key::kHome, "Home", "wind from 10 degrees further left", 0, 1,
+               true},
+    KeyBinding{Action::kWindRight, key::kEnd, "End", "wind from 10 degrees further right", 0, 1,
+               true},
+    KeyBinding{Action::kCamera, '1', "1-9", "the scene's cameras, in the order of their names", 0,
+               9},
+    KeyBinding{Action::kDriveCamera, 'C', "C",
+               "driving, flying: the next camera of driver or pilot, chase, wheel"},
     KeyBinding{Action::kMoreThrottle, 'U', "U", "flying: a twentieth more throttle", 0, 1, true},
     KeyBinding{Action::kLessThrottle, 'J', "J", "flying: a twentieth less", 0, 1, true},
     KeyBinding{Action::kRecent, 'O', "O", "recent scenes"},
     KeyBinding{Action::kFullScreen, key::kF11, "F11", "full screen, or the window again"},
-    KeyBinding{Action::kScreenshot, key::kF12, "F12", "screenshot: sward-NNNN in the working directory"},
-    KeyBinding{Action::kSequence, 'V', "V", "begins or ends a sequence: every picture, in a folder sward-seq-NNNN"},
-    KeyBinding{Action::kPose, 'K', "K", "prints the pose on stdout, in the form that --camera takes"},
+    KeyBinding{Action::kScreenshot, key::kF12, "F12",
+               "screenshot: sward-NNNN in the working directory"},
+    KeyBinding{Action::kSequence, 'V', "V",
+               "begins or ends a sequence: every picture, in a folder sward-seq-NNNN"},
+    KeyBinding{Action::kPose, 'K', "K",
+               "prints the pose on stdout, in the form that --camera takes"},
     KeyBinding{Action::kFlow, 'F', "F", "shows or hides the flow of the wind"},
     KeyBinding{Action::kArrows, 'G', "G", "opens or closes the editor of the wind's arrows"},
     KeyBinding{Action::kReload, 'R', "R", "reloads shaders"},
-    KeyBinding{Action::kQuit, key::kEscape, "Esc", "quits; while a scene loads or a picture takes long too"},
-    KeyBinding{Action::kDelete, key::kDelete, "Del", "editor: takes out the selected point, with shift all that continues it"},
+    KeyBinding{Action::kQuit, key::kEscape, "Esc",
+               "quits; while a scene loads or a picture takes long too"},
+    KeyBinding{Action::kDelete, key::kDelete, "Del",
+               "editor: takes out the selected point, with shift all that continues it"},
     KeyBinding{Action::kRedo, 'Y', "Ctrl+Y", "editor: redo", 0, 1, true, true},
-    KeyBinding{Action::kSave, 'S', "Ctrl+S", "editor: saves the arrows into the scene file", 0, 1, false, true},
+    KeyBinding{Action::kSave, 'S', "Ctrl+S", "editor: saves the arrows into the scene file", 0, 1,
+               false, true},
     KeyBinding{Action::kUndo, 'Z', "Ctrl+Z", "editor: undo", 0, 1, true, true},
 };
 
@@ -76,7 +88,8 @@ void KeyLog::take(const KeyEvent& event) {
     if (!event.down)
         return;
     for (const KeyBinding& binding : kBindings) {
-        const bool mine = (event.key >= binding.key && event.key < binding.key + binding.count) || (binding.also != 0 && event.key == binding.also);
+        const bool mine = (event.key >= binding.key && event.key < binding.key + binding.count) ||
+                          (binding.also != 0 && event.key == binding.also);
         if (mine && binding.ctrl == event.ctrl && (binding.repeats || !event.repeat))
             presses_.push_back({binding.action, binding.count > 1 ? event.key - binding.key : 0});
     }

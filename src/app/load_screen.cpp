@@ -43,7 +43,8 @@ private:
 
 } // namespace
 
-LoadScreen::LoadScreen(Window& window, Panel& panel, std::string scene) : window_(window), panel_(panel), scene_(base::printable(scene, 300)) {}
+LoadScreen::LoadScreen(Window& window, Panel& panel, std::string scene)
+    : window_(window), panel_(panel), scene_(base::printable(scene, 300)) {}
 
 void LoadScreen::told(std::string_view what, std::optional<double> share) {
     const std::lock_guard lock(mutex_);
@@ -67,14 +68,18 @@ void LoadScreen::draw() {
     glClearColor(0.06f, 0.07f, 0.08f, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     panel_.begin();
-    Panel::draw_load(scene_, what, share, std::chrono::duration<double>(Clock::now() - start_).count());
+    Panel::draw_load(scene_, what, share,
+                     std::chrono::duration<double>(Clock::now() - start_).count());
     panel_.end();
     window_.swap();
 }
 
 render::World LoadScreen::read(const scene::Scene& scene) {
-    auto world = std::async(std::launch::async,
-                            [&] { return load_world(scene, [this](std::string_view what, std::optional<double> share) { told(what, share); }); });
+    auto world = std::async(std::launch::async, [&] {
+        return load_world(scene, [this](std::string_view what, std::optional<double> share) {
+            told(what, share);
+        });
+    });
     do {
         window_.listen();
         if (window_.asked_to_end())

@@ -16,15 +16,18 @@ namespace sward::app {
 /// Thrown where Esc or the window's button ends what takes long.
 struct Stopped {};
 
-/// What the window shows while a scene loads: what is being done, how far it is, and that Esc ends it. The window answers meanwhile.
+/// What the window shows while a scene loads: what is being done, how far it is, and that Esc ends
+/// it. The window answers meanwhile.
 class LoadScreen {
 public:
     LoadScreen(Window& window, Panel& panel, std::string scene);
 
-    /// Reads everything that the scene names, in a thread of its own, while the window is kept alive. Esc ends the program at once, for files are
-    /// not read by halves. Throws what load_world() throws.
+    /// Reads everything that the scene names, in a thread of its own, while the window is kept
+    /// alive. Esc ends the program at once, for files are not read by halves. Throws what
+    /// load_world() throws.
     [[nodiscard]] render::World read(const scene::Scene& scene);
-    /// Draws, if the last time is long enough ago, and hears the window. Throws Stopped. Keeps the context's state.
+    /// Draws, if the last time is long enough ago, and hears the window. Throws Stopped. Keeps the
+    /// context's state.
     void show(std::string_view what);
 
 private:

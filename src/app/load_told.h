@@ -7,7 +7,8 @@
 
 namespace sward::app {
 
-/// Is told what a load does now, and the share of it that is done where that is known. Any thread may call it. Empty: nobody asks.
+/// Is told what a load does now, and the share of it that is done where that is known. Any thread
+/// may call it. Empty: nobody asks.
 using LoadTold = std::function<void(std::string_view what, std::optional<double> share)>;
 
 } // namespace sward::app

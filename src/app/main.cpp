@@ -46,12 +46,18 @@ void run(int argc, char** argv) {
 
 ExitCode code_of(sward::ErrorKind kind) {
     switch (kind) {
-    case sward::ErrorKind::kInside: return ExitCode::kFailure;
-    case sward::ErrorKind::kUsage: return ExitCode::kUsage;
-    case sward::ErrorKind::kBadInput: return ExitCode::kBadInput;
-    case sward::ErrorKind::kOverLimit: return ExitCode::kOverLimit;
-    case sward::ErrorKind::kIo: return ExitCode::kIo;
-    case sward::ErrorKind::kNoGpu: return ExitCode::kNoGpu;
+    case sward::ErrorKind::kInside:
+        return ExitCode::kFailure;
+    case sward::ErrorKind::kUsage:
+        return ExitCode::kUsage;
+    case sward::ErrorKind::kBadInput:
+        return ExitCode::kBadInput;
+    case sward::ErrorKind::kOverLimit:
+        return ExitCode::kOverLimit;
+    case sward::ErrorKind::kIo:
+        return ExitCode::kIo;
+    case sward::ErrorKind::kNoGpu:
+        return ExitCode::kNoGpu;
     }
     return ExitCode::kFailure;
 }
@@ -67,7 +73,9 @@ SWARD_BEFORE_LIBRARIES("sward");
 
 void sward::app::flush_results() {
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw base::Error(base::ExitCode::kIo, "stdout: cannot write: found a full or closed stream, expected room for the report");
+        throw base::Error(
+            base::ExitCode::kIo,
+            "stdout: cannot write: found a full or closed stream, expected room for the report");
 }
 
 int main(int argc, char** argv) {
@@ -83,12 +91,16 @@ int main(int argc, char** argv) {
         return fail(code_of(error.kind()), error.what());
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::kOverLimit, "memory: found none left, expected room for the scene");
-    } catch (const std::filesystem::filesystem_error& error) { // a working directory that is gone, say
-        const std::string name = error.path1().empty() ? "working directory" : sward::base::printable(error.path1().native(), 300);
-        return fail(ExitCode::kIo, name + ": cannot use: found " +
-                                       error.code().message() + ", expected a file or directory that can be reached");
+    } catch (
+        const std::filesystem::filesystem_error& error) { // a working directory that is gone, say
+        const std::string name = error.path1().empty()
+                                     ? "working directory"
+                                     : sward::base::printable(error.path1().native(), 300);
+        return fail(ExitCode::kIo, name + ": cannot use: found " + error.code().message() +
+                                       ", expected a file or directory that can be reached");
     } catch (const std::system_error& error) { // no thread, no handle
-        return fail(ExitCode::kOverLimit, "system: found " + error.code().message() + ", expected room for a thread (ulimit -u, -v)");
+        return fail(ExitCode::kOverLimit, "system: found " + error.code().message() +
+                                              ", expected room for a thread (ulimit -u, -v)");
     } catch (const std::exception& error) {
         return fail(ExitCode::kFailure,
                     "inside sward: " + sward::base::printable(error.what(), 300));

@@ -17,7 +17,8 @@ void ModelEye::look_aside(glm::dvec2 mouse_px) {
     look_ += glm::dvec2(mouse_px.x, -mouse_px.y) * kMouseDegrees;
 }
 
-void ModelEye::put_on_board(ViewPose& view, const glm::dvec3& at, const Angles& sight, const Land& land) const {
+void ModelEye::put_on_board(ViewPose& view, const glm::dvec3& at, const Angles& sight,
+                            const Land& land) const {
     view.pose.position = at;
     view.pose.yaw_deg = sight.yaw + look_.x - 360 * std::floor((sight.yaw + look_.x) / 360);
     view.pose.pitch_deg = std::clamp(sight.pitch + look_.y, -89.9, 89.9);
@@ -29,9 +30,11 @@ void ModelEye::come_round(double yaw_deg, const Chase& chase, double dt_s) {
     chase_yaw_ += std::remainder(yaw_deg - chase_yaw_, 360.0) * (1 - std::exp(-chase.per_s * dt_s));
 }
 
-void ModelEye::put_behind(ViewPose& view, const glm::dvec3& model, const Chase& chase, const Land& land) const {
+void ModelEye::put_behind(ViewPose& view, const glm::dvec3& model, const Chase& chase,
+                          const Land& land) const {
     const double yaw = (chase_yaw_ + look_.x) * kDegree;
-    const glm::dvec3 at = model + glm::dvec3(-std::sin(yaw) * chase.back_m, chase.up_m, std::cos(yaw) * chase.back_m);
+    const glm::dvec3 at =
+        model + glm::dvec3(-std::sin(yaw) * chase.back_m, chase.up_m, std::cos(yaw) * chase.back_m);
     put_on_board(view, at, {chase_yaw_, chase.pitch_deg, 0}, land);
 }
 

@@ -26,10 +26,12 @@ fs::path find_model(const char* option, const fs::path& folder, const std::strin
         if (entry.path().extension() == ".toml")
             known.push_back(entry.path().stem().string());
     std::ranges::sort(known);
-    throw option_error(option, name, fmt::format("a model's file, or one that ships: {}", fmt::join(known, ", ")));
+    throw option_error(
+        option, name, fmt::format("a model's file, or one that ships: {}", fmt::join(known, ", ")));
 }
 
-void add_model_mesh(render::World& world, const std::string& name, const scene::Mesh& mesh, const glm::dvec3& colour) {
+void add_model_mesh(render::World& world, const std::string& name, const scene::Mesh& mesh,
+                    const glm::dvec3& colour) {
     world.meshes.insert_or_assign(name, mesh);
     scene::ObjectSpec object;
     object.kind = "mesh";

@@ -24,7 +24,9 @@ using render::HandoverMode;
 using render::Tiers;
 
 constexpr std::array<std::pair<std::string_view, render::FarScheme>, 3> kFarSchemes = {
-    {{"march", render::FarScheme::kMarch}, {"planes", render::FarScheme::kPlanes}, {"published", render::FarScheme::kPublished}}};
+    {{"march", render::FarScheme::kMarch},
+     {"planes", render::FarScheme::kPlanes},
+     {"published", render::FarScheme::kPublished}}};
 constexpr std::array<std::pair<std::string_view, Tiers>, 4> kTiers = {
     {{"all", Tiers::kAll},
      {"blades", Tiers::kBlades},
@@ -38,10 +40,13 @@ constexpr std::array<std::pair<std::string_view, HandoverMode>, 4> kHandovers = 
 constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
     {{"1", 1}, {"2", 2}, {"4", 4}}};
 
-constexpr std::array<std::pair<std::string_view, const char*>, 5> kSuites = {{{"all", "all"}, {"far", "far"}, {"near", "near"}, {"tracks", "tracks"}, {"wind", "wind"}}};
+constexpr std::array<std::pair<std::string_view, const char*>, 5> kSuites = {
+    {{"all", "all"}, {"far", "far"}, {"near", "near"}, {"tracks", "tracks"}, {"wind", "wind"}}};
 
 constexpr std::array<std::pair<std::string_view, drive::Surface>, drive::kSurfaces> kSurfaces = {
-    {{"grass", drive::Surface::kGrass}, {"wet", drive::Surface::kWetGrass}, {"road", drive::Surface::kRoad}}};
+    {{"grass", drive::Surface::kGrass},
+     {"wet", drive::Surface::kWetGrass},
+     {"road", drive::Surface::kRoad}}};
 
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
@@ -68,7 +73,9 @@ void declare_path(CLI::App& app, const std::string& name, const std::string& val
         if (text.empty() || text.find('\0') != std::string::npos)
             throw option_error(shown, text, "the name of a file");
         if (text.front() == '-') // an option that stands where the name was forgotten
-            throw option_error(shown, text, fmt::format("the name of a file (./{} for one with a dash)", base::printable(text)));
+            throw option_error(shown, text,
+                               fmt::format("the name of a file (./{} for one with a dash)",
+                                           base::printable(text)));
         *path = text;
     });
 }
@@ -110,14 +117,18 @@ void declare_frame_options(CLI::App& app, Options* o) {
     declare(app, "--exposure", "FACTOR", "default 1", [=](const std::string& text) {
         o->frame.exposure = static_cast<float>(parse_number("--exposure", text, kExposure));
     });
-    declare(app, "--far", "march|planes|published", "how the far field is drawn; planes: shells and slices one by one; published: the same in the published shares; both as comparisons",
-            [=](const std::string& text) { o->frame.far = parse_choice("--far", text, kFarSchemes); });
+    declare(
+        app, "--far", "march|planes|published",
+        "how the far field is drawn; planes: shells and slices one by one; published: the same in "
+        "the published shares; both as comparisons",
+        [=](const std::string& text) { o->frame.far = parse_choice("--far", text, kFarSchemes); });
     declare(app, "--blades-distance", "METRES", "how far --tiers blades draws; default 200",
             [=](const std::string& text) {
                 o->frame.blades_distance_m = parse_number("--blades-distance", text, kDistance);
             });
     declare(app, "--cull", "LIST",
-            "none, or of frustum,orientation,distance,occlusion,samples: how unseen blades are found; default all but orientation",
+            "none, or of frustum,orientation,distance,occlusion,samples: how unseen blades are "
+            "found; default all but orientation",
             [=](const std::string& text) { o->frame.cull = parse_cull("--cull", text); });
     app.add_flag("--debug-gl", o->debug_gl,
                  "an OpenGL debug context; any message is a failure (exit 1)");
@@ -155,14 +166,22 @@ constexpr std::array<std::pair<std::string_view, bool>, 1> kFormats = {{{"rgb24"
 
 /// -o and what it may be instead of a file.
 void declare_output(CLI::App& app, const std::string& value, Options* o) {
-    declare(app, "-o,--output", value, "the picture; with --frames a name with %d or %04d in it; \"-\" is stdout, with --format", [=](const std::string& text) {
-        if (text.empty() || text.find('\0') != std::string::npos)
-            throw option_error("--output", text, "the name of a file");
-        if (text.front() == '-' && text != "-")
-            throw option_error("--output", text, fmt::format("the name of a file (./{} for one with a dash)", base::printable(text)));
-        o->output = text;
-    })->required();
-    declare(app, "--format", "rgb24", "what -o - writes: 3 bytes a pixel, row by row from the top, picture after picture, as ffmpeg's rawvideo reads them",
+    declare(
+        app, "-o,--output", value,
+        "the picture; with --frames a name with %d or %04d in it; \"-\" is stdout, with --format",
+        [=](const std::string& text) {
+            if (text.empty() || text.find('\0') != std::string::npos)
+                throw option_error("--output", text, "the name of a file");
+            if (text.front() == '-' && text != "-")
+                throw option_error("--output", text,
+                                   fmt::format("the name of a file (./{} for one with a dash)",
+                                               base::printable(text)));
+            o->output = text;
+        })
+        ->required();
+    declare(app, "--format", "rgb24",
+            "what -o - writes: 3 bytes a pixel, row by row from the top, picture after picture, as "
+            "ffmpeg's rawvideo reads them",
             [=](const std::string& text) { o->raw = parse_choice("--format", text, kFormats); });
 }
 
@@ -177,15 +196,19 @@ void declare_render(CLI::App& app, Options* o) {
             [=](const std::string& text) { o->aovs = parse_aovs("--aov", text); });
     declare_path(app, "--stats", "FILE", "times and counts as JSON", &o->stats);
     app.add_flag("--wait-in-passes", o->frame.wait_in_passes,
-                 "each pass of --stats waits for the GPU: its time is its own, in software too; costs the overlap of passes");
-    app.add_flag("--count-steps", o->frame.count_steps, "--stats counts the steps of the far field's rays and the texels that they read; slower");
+                 "each pass of --stats waits for the GPU: its time is its own, in software too; "
+                 "costs the overlap of passes");
+    app.add_flag(
+        "--count-steps", o->frame.count_steps,
+        "--stats counts the steps of the far field's rays and the texels that they read; slower");
     declare(app, "--path", "NAME", "a camera path of the scene", [=](const std::string& text) {
         if (text.empty())
             throw option_error("--path", text, "a path of the scene");
         o->path = text;
     })->excludes("--camera");
     declare(app, "--camera-matrices", "FILE",
-            "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], \"clip_from_view\": [16]}",
+            "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], "
+            "\"clip_from_view\": [16]}",
             [=](const std::string& text) {
                 if (text.empty() || text.find('\0') != std::string::npos)
                     throw option_error("--camera-matrices", text, "the name of a file");
@@ -193,17 +216,27 @@ void declare_render(CLI::App& app, Options* o) {
             })
         ->excludes("--camera")
         ->excludes("--path");
-    declare_path(app, "--replay", "FILE", "the camera, the sun and the wind of a flight that `sward view --record` wrote; without --frames the whole of it",
+    declare_path(app, "--replay", "FILE",
+                 "the camera, the sun and the wind of a flight that `sward view --record` wrote; "
+                 "without --frames the whole of it",
                  &o->replay);
-    app.get_option("--replay")->excludes("--camera")->excludes("--path")->excludes("--camera-matrices");
-    declare_path(app, "--channels", "FILE", "several pictures of every moment, as FILE lists them: OUT-NAME.png for each", &o->channels);
+    app.get_option("--replay")
+        ->excludes("--camera")
+        ->excludes("--path")
+        ->excludes("--camera-matrices");
+    declare_path(app, "--channels", "FILE",
+                 "several pictures of every moment, as FILE lists them: OUT-NAME.png for each",
+                 &o->channels);
     app.get_option("--channels")->excludes("--size")->excludes("--stats")->excludes("--format");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
             [=](const std::string& text) { o->frames = parse_frames("--frames", text); });
-    declare_path(app, "--tracks", "FILE.exr", "what lay pressed at time 0, as --save-tracks wrote it; for scenes with [tracks]", &o->tracks);
-    declare_path(app, "--save-tracks", "FILE.exr", "writes what lies pressed at the end", &o->save_tracks);
+    declare_path(app, "--tracks", "FILE.exr",
+                 "what lay pressed at time 0, as --save-tracks wrote it; for scenes with [tracks]",
+                 &o->tracks);
+    declare_path(app, "--save-tracks", "FILE.exr", "writes what lies pressed at the end",
+                 &o->save_tracks);
     declare_test_options(app, o);
     declare(app, "--lod-eye", "x,y,z", "tiers are chosen as if the eye stood here",
             [=](const std::string& text) { o->lod_eye = parse_eye("--lod-eye", text); })
@@ -227,35 +260,59 @@ void declare_view(CLI::App& app, Options* o) {
                  &o->scene);
     declare_frame_options(app, o);
     declare(app, "--native-fdm", "udp:[HOST:]PORT",
-            "the eye is where another program's aircraft is: FlightGear's net_fdm, as JSBSim and FlightGear send it. Without HOST from this machine alone",
-            [=](const std::string& text) { o->native_fdm = parse_endpoint("--native-fdm", text, "udp:PORT or udp:HOST:PORT, such as udp:5550"); });
-    declare(app, "--udp-out", "udp:HOST:PORT", "tells a program once a picture the ground's height, what stands on it and the wind, under the aircraft",
+            "the eye is where another program's aircraft is: FlightGear's net_fdm, as JSBSim and "
+            "FlightGear send it. Without HOST from this machine alone",
             [=](const std::string& text) {
-                o->udp_out = parse_endpoint("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
-                if (o->udp_out->host.empty() || o->udp_out->port == 0)
-                    throw option_error("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
+                o->native_fdm = parse_endpoint("--native-fdm", text,
+                                               "udp:PORT or udp:HOST:PORT, such as udp:5550");
             });
-    app.add_flag("--list-joysticks", o->list_joysticks, "prints what is plugged in and what controls.toml does with it, and ends");
-    declare(app, "--window", "WxH[+X+Y]", "the window's size and the place of its corner on the desktop, in pixels",
+    declare(app, "--udp-out", "udp:HOST:PORT",
+            "tells a program once a picture the ground's height, what stands on it and the wind, "
+            "under the aircraft",
+            [=](const std::string& text) {
+                o->udp_out =
+                    parse_endpoint("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
+                if (o->udp_out->host.empty() || o->udp_out->port == 0)
+                    throw option_error("--udp-out", text,
+                                       "udp:HOST:PORT, such as udp:127.0.0.1:5560");
+            });
+    app.add_flag("--list-joysticks", o->list_joysticks,
+                 "prints what is plugged in and what controls.toml does with it, and ends");
+    declare(app, "--window", "WxH[+X+Y]",
+            "the window's size and the place of its corner on the desktop, in pixels",
             [=](const std::string& text) { o->window = parse_window("--window", text); })
         ->excludes("--size");
-    declare_path(app, "--record", "FILE", "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
+    declare_path(app, "--record", "FILE",
+                 "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
     declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
-    app.get_option("--replay")->excludes("--record")->excludes("--camera")->excludes("--native-fdm");
-    declare_path(app, "--channels", "FILE", "several pictures of every moment in one window, as FILE lists them", &o->channels);
+    app.get_option("--replay")
+        ->excludes("--record")
+        ->excludes("--camera")
+        ->excludes("--native-fdm");
+    declare_path(app, "--channels", "FILE",
+                 "several pictures of every moment in one window, as FILE lists them",
+                 &o->channels);
     app.get_option("--channels")->excludes("--size")->excludes("--window");
-    declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it", [=](const std::string& text) {
-        if (text.empty() || text.find('\0') != std::string::npos)
-            throw option_error("--drive", text, "car, tractor or a vehicle's file");
-        o->drive = text;
-    })->excludes("--replay")->excludes("--native-fdm");
-    declare(app, "--fly", "AIRCRAFT", "trainer or an aircraft's file: the keyboard flies it", [=](const std::string& text) {
-        if (text.empty() || text.find('\0') != std::string::npos)
-            throw option_error("--fly", text, "trainer or an aircraft's file");
-        o->fly = text;
-    })->excludes("--replay")->excludes("--native-fdm")->excludes("--drive");
-    declare(app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
-            [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
+    declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it",
+            [=](const std::string& text) {
+                if (text.empty() || text.find('\0') != std::string::npos)
+                    throw option_error("--drive", text, "car, tractor or a vehicle's file");
+                o->drive = text;
+            })
+        ->excludes("--replay")
+        ->excludes("--native-fdm");
+    declare(app, "--fly", "AIRCRAFT", "trainer or an aircraft's file: the keyboard flies it",
+            [=](const std::string& text) {
+                if (text.empty() || text.find('\0') != std::string::npos)
+                    throw option_error("--fly", text, "trainer or an aircraft's file");
+                o->fly = text;
+            })
+        ->excludes("--replay")
+        ->excludes("--native-fdm")
+        ->excludes("--drive");
+    declare(
+        app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
+        [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
         ->needs("--drive");
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
@@ -269,23 +326,28 @@ void declare_wind(CLI::App& app, Options* o) {
     declare(app, "--time", "SECONDS", "simulated time",
             [=](const std::string& text) { o->time_s = parse_number("--time", text, kTime); });
     app.get_option("--time")->required();
-    declare_path(app, "-o,--output", "OUT.exr", "the picture; with --every a name with %d or %04d in it", &o->output);
+    declare_path(app, "-o,--output", "OUT.exr",
+                 "the picture; with --every a name with %d or %04d in it", &o->output);
     app.get_option("--output")->required();
     declare(app, "--every", "SECONDS", "a picture at 0 and each so many seconds up to --time",
             [=](const std::string& text) { o->every_s = parse_number("--every", text, kEvery); });
     declare(app, "--at", "x,z", "metres; what the window stands around; default 0,0",
             [=](const std::string& text) { o->at = parse_place("--at", text); });
-    app.add_flag("--debug-gl", o->debug_gl, "an OpenGL debug context; any message is a failure (exit 1)");
+    app.add_flag("--debug-gl", o->debug_gl,
+                 "an OpenGL debug context; any message is a failure (exit 1)");
 }
 
 void declare_bench(CLI::App& app, Options* o) {
-    declare(app, "SUITE", "all|far|near|tracks|wind", "what is measured; default all",
-            [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
+    declare(
+        app, "SUITE", "all|far|near|tracks|wind", "what is measured; default all",
+        [=](const std::string& text) { o->bench_suite = parse_choice("SUITE", text, kSuites); });
     declare_path(app, "--json", "FILE", "the figures as JSON", &o->bench_json);
-    declare(app, "--size", "WxH", "pixels of the suites far and near; default 1280x720 and 512x384", [=](const std::string& text) {
-        std::tie(o->bench_size.x, o->bench_size.y) = parse_size("--size", text);
-    });
-    app.add_flag("--full", o->bench_full, "the near suite with seven million blades too: a gigabyte, minutes in software");
+    declare(app, "--size", "WxH", "pixels of the suites far and near; default 1280x720 and 512x384",
+            [=](const std::string& text) {
+                std::tie(o->bench_size.x, o->bench_size.y) = parse_size("--size", text);
+            });
+    app.add_flag("--full", o->bench_full,
+                 "the near suite with seven million blades too: a gigabyte, minutes in software");
 }
 
 std::string one_line(std::string text) {
@@ -301,8 +363,11 @@ base::Error usage_error(const CLI::ParseError& error, const CLI::App& app) {
         commands.empty() ? "`sward --help`" : fmt::format("`sward {} --help`", at.get_name());
     // An argument that nothing takes is worth more than what is missing because of it.
     const auto extras = app.remaining(true);
-    if (const auto option = std::find_if(extras.begin(), extras.end(), base::is_option); option != extras.end())
-        return {base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what {} lists{}", base::printable(*option), help, base::perhaps_option(at, *option))};
+    if (const auto option = std::find_if(extras.begin(), extras.end(), base::is_option);
+        option != extras.end())
+        return {base::ExitCode::kUsage,
+                fmt::format("{}: found an unknown option, expected what {} lists{}",
+                            base::printable(*option), help, base::perhaps_option(at, *option))};
     if (!extras.empty())
         return option_error(at.get_name(), extras.front(), fmt::format("what {} lists", help));
     for (const CLI::Option* option : at.get_options()) {
@@ -336,10 +401,16 @@ Options parse_options(int argc, const char* const* argv) {
     CLI::App* const view = app.add_subcommand("view", "fly through a scene");
     CLI::App* const render =
         app.add_subcommand("render", "a picture or a sequence, without a window");
-    CLI::App* const bench = app.add_subcommand("bench", "figures of this machine, held to their limits");
-    CLI::App* const wind = app.add_subcommand("wind", "the wind around a place, as pictures of numbers");
-    CLI::App* const info = app.add_subcommand("info", "renderer, limits, versions, paths; or what a scene's terrain is");
-    declare_path(*info, "SCENE", "PATH", "scene file, or directory with scene.toml: its extent, CRS, origin, heights and classes", &o.scene);
+    CLI::App* const bench =
+        app.add_subcommand("bench", "figures of this machine, held to their limits");
+    CLI::App* const wind =
+        app.add_subcommand("wind", "the wind around a place, as pictures of numbers");
+    CLI::App* const info = app.add_subcommand(
+        "info", "renderer, limits, versions, paths; or what a scene's terrain is");
+    declare_path(
+        *info, "SCENE", "PATH",
+        "scene file, or directory with scene.toml: its extent, CRS, origin, heights and classes",
+        &o.scene);
     declare_view(*view, &o);
     declare_render(*render, &o);
     declare_wind(*wind, &o);
@@ -355,7 +426,8 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         throw usage_error(error, app);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true); std::any_of(words.begin(), words.end(), base::is_option))
+        if (const auto words = app.remaining(true);
+            std::any_of(words.begin(), words.end(), base::is_option))
             throw usage_error(CLI::ExtrasError(words), app);
         throw;
     }

@@ -26,7 +26,8 @@ struct FrameRange {
 /// Where a window stands.
 struct WindowPlace {
     int width = 1280, height = 720;
-    std::optional<glm::ivec2> at; ///< of its upper left corner on the desktop; none: the window manager's choice
+    std::optional<glm::ivec2>
+        at; ///< of its upper left corner on the desktop; none: the window manager's choice
 };
 
 /// Everything the command line can say, checked as far as that needs no file. Each option is
@@ -53,34 +54,38 @@ struct Options {
     std::optional<FrameRange> frames;
     std::uint32_t frame_index = 0;
     std::optional<scene::Pose> lod_eye;
-    std::filesystem::path camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
+    std::filesystem::path
+        camera_matrices; ///< a file with a camera's matrices; empty: `camera` or `path`
     int warm = 0;
-    std::filesystem::path channels;    ///< several pictures of every moment; view too. Empty: one
-    std::filesystem::path replay;      ///< a record that the eye and the weather follow; view too. Empty: none
-    bool raw = false;                  ///< --format rgb24: bytes of the display pictures on stdout
+    std::filesystem::path channels; ///< several pictures of every moment; view too. Empty: one
+    std::filesystem::path
+        replay;       ///< a record that the eye and the weather follow; view too. Empty: none
+    bool raw = false; ///< --format rgb24: bytes of the display pictures on stdout
     std::filesystem::path tracks;      ///< what lay at time 0; empty: nothing
     std::filesystem::path save_tracks; ///< what lies at the end; empty: not kept
 
     // bench
     std::string bench_suite = "all"; ///< or far, near, tracks, wind
-    glm::ivec2 bench_size{0, 0}; ///< 0: each suite's own
+    glm::ivec2 bench_size{0, 0};     ///< 0: each suite's own
     bool bench_full = false;
     std::filesystem::path bench_json; ///< empty: none
 
     // wind
-    std::optional<double> every_s; ///< a picture each so many seconds up to time_s; none: one, at time_s
-    glm::dvec2 at{0, 0};           ///< world x, z that the window stands around
+    std::optional<double>
+        every_s;         ///< a picture each so many seconds up to time_s; none: one, at time_s
+    glm::dvec2 at{0, 0}; ///< world x, z that the window stands around
 
     // view
-    std::optional<feed::Endpoint> native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
-    std::optional<feed::Endpoint> udp_out;    ///< whom to tell what lies under it
-    bool list_joysticks = false;              ///< in the place of a window
-    std::filesystem::path record; ///< written as the flight goes on; empty: none
-    std::string drive;            ///< a vehicle that ships, or its file; empty: the free camera
-    std::string fly;              ///< likewise an aircraft
+    std::optional<feed::Endpoint>
+        native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
+    std::optional<feed::Endpoint> udp_out; ///< whom to tell what lies under it
+    bool list_joysticks = false;           ///< in the place of a window
+    std::filesystem::path record;          ///< written as the flight goes on; empty: none
+    std::string drive; ///< a vehicle that ships, or its file; empty: the free camera
+    std::string fly;   ///< likewise an aircraft
     drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
-    std::optional<WindowPlace> window; ///< none: of `frame`'s size
-    int exit_after = 0; ///< frames; 0: until it is closed
+    std::optional<WindowPlace> window;             ///< none: of `frame`'s size
+    int exit_after = 0;                            ///< frames; 0: until it is closed
 };
 
 /// Parses a command line. Throws Error: kUsage, kOverLimit for a size past the limit.

@@ -70,8 +70,9 @@ fs::path OutputNames::name(int frame) const {
 void check_outputs(const Options& options) {
     std::error_code ignored;
     if ((options.output == "-") != options.raw)
-        throw options.raw ? option_error("--output", options.output.string(), "-, as --format is given")
-                          : option_error("--output", "-", "--format rgb24 beside it, or the name of a file");
+        throw options.raw
+            ? option_error("--output", options.output.string(), "-, as --format is given")
+            : option_error("--output", "-", "--format rgb24 beside it, or the name of a file");
     if (options.raw) {
         if (!options.aovs.empty())
             throw option_error("--output", "-", "a name that ends in .exr, as --aov is given");
@@ -98,9 +99,11 @@ void check_outputs(const Options& options) {
 void require_place(const fs::path& path) {
     std::error_code error;
     fs::path parent = fs::absolute(path).lexically_normal().parent_path();
-    if (path.empty() || !path.has_filename() || fs::exists(fs::symlink_status(parent, error)) || error.value() == ENAMETOOLONG)
+    if (path.empty() || !path.has_filename() || fs::exists(fs::symlink_status(parent, error)) ||
+        error.value() == ENAMETOOLONG)
         return base::require_writable(path);
-    while (!parent.empty() && parent != parent.root_path() && !fs::exists(fs::symlink_status(parent, error)))
+    while (!parent.empty() && parent != parent.root_path() &&
+           !fs::exists(fs::symlink_status(parent, error)))
         parent = parent.parent_path();
     base::require_writable(parent / path.filename());
 }
@@ -110,13 +113,16 @@ void make_parent(const fs::path& path) {
     std::error_code error;
     fs::create_directories(parent, error);
     if (error && !fs::is_directory(parent))
-        throw base::input_error(base::ExitCode::kIo, path, 0, "cannot make its directory", error.message(), "a directory that can be made");
+        throw base::input_error(base::ExitCode::kIo, path, 0, "cannot make its directory",
+                                error.message(), "a directory that can be made");
 }
 
 void check_not_inputs(const Options& options, const scene::Scene& scene) {
     const OutputNames names(options);
     const fs::path first = names.name(options.frames ? options.frames->first : 0);
-    std::vector<fs::path> inputs = {scene.file, scene.terrain.elevation, scene.terrain.mask, scene.terrain.surface, scene.file.parent_path() / scene.grass.set};
+    std::vector<fs::path> inputs = {scene.file, scene.terrain.elevation, scene.terrain.mask,
+                                    scene.terrain.surface,
+                                    scene.file.parent_path() / scene.grass.set};
     for (const scene::LandFeature& feature : scene.terrain.features)
         inputs.push_back(feature.file);
     for (const fs::path& input : inputs) {

@@ -25,7 +25,8 @@ private:
 /// Refuses what cannot end well before any work is done: an output of an unknown kind, AOVs in a
 /// display picture, a name that cannot be written. Throws Error: kUsage, kIo.
 void check_outputs(const Options& options);
-/// Like base::require_writable, but the directory may be missing where it can be made. Throws Error(kIo).
+/// Like base::require_writable, but the directory may be missing where it can be made. Throws
+/// Error(kIo).
 void require_place(const std::filesystem::path& path);
 /// Makes the directory that a file is to stand in, and those above it. Throws Error(kIo).
 void make_parent(const std::filesystem::path& path);

@@ -33,7 +33,8 @@ void draw_time(SimClock& clock, Weather& weather) {
         return;
     const auto drag = [](const char* label, double& value, double most, const char* format) {
         constexpr double kLeast = 0;
-        ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &kLeast, &most, format, ImGuiSliderFlags_AlwaysClamp);
+        ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &kLeast, &most, format,
+                            ImGuiSliderFlags_AlwaysClamp);
     };
     bool running = !clock.paused();
     if (ImGui::Checkbox("time goes on", &running))
@@ -59,7 +60,8 @@ void draw_cameras(const std::vector<std::string>& cameras, std::optional<int>& c
     if (cameras.empty() || !ImGui::CollapsingHeader("Cameras"))
         return;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-        const std::string label = i < 9 ? std::to_string(i + 1) + "  " + cameras[i] : "    " + cameras[i];
+        const std::string label =
+            i < 9 ? std::to_string(i + 1) + "  " + cameras[i] : "    " + cameras[i];
         ImGui::PushID(static_cast<int>(i));
         if (ImGui::Selectable(label.c_str()))
             chosen = static_cast<int>(i);
@@ -206,7 +208,8 @@ void Panel::draw_line(const std::string& line) {
     // A narrow window has it in two rows, or three.
     const float width = ImGui::GetIO().DisplaySize.x, wrap = std::max(60.0f, width - 20);
     const float height = ImGui::CalcTextSize(line.c_str(), nullptr, false, wrap).y;
-    list.AddRectFilled({0, 0}, {width, height + kLineHeight - ImGui::GetTextLineHeight()}, IM_COL32(0, 0, 0, 150));
+    list.AddRectFilled({0, 0}, {width, height + kLineHeight - ImGui::GetTextLineHeight()},
+                       IM_COL32(0, 0, 0, 150));
     list.AddText(nullptr, 0, {10, 4}, kInk, line.c_str(), nullptr, wrap);
 }
 
@@ -219,12 +222,14 @@ void Panel::draw_help() {
             ImGui::TextUnformatted(line.data(), line.data() + line.size());
         ImGui::Separator();
         for (const KeyBinding& binding : key_bindings())
-            ImGui::Text("%-10.*s %.*s", static_cast<int>(binding.name.size()), binding.name.data(), static_cast<int>(binding.help.size()), binding.help.data());
+            ImGui::Text("%-10.*s %.*s", static_cast<int>(binding.name.size()), binding.name.data(),
+                        static_cast<int>(binding.help.size()), binding.help.data());
     }
     ImGui::End();
 }
 
-std::optional<std::filesystem::path> Panel::draw_recent(const std::vector<std::filesystem::path>& scenes) {
+std::optional<std::filesystem::path>
+Panel::draw_recent(const std::vector<std::filesystem::path>& scenes) {
     if (!recent)
         return {};
     std::optional<std::filesystem::path> chosen;
@@ -257,16 +262,20 @@ void Panel::draw_messages(const std::vector<std::string>& messages) {
 void Panel::draw_word(const std::string& word) {
     if (word.empty())
         return;
-    const ImVec2 size = ImGui::GetIO().DisplaySize, text = ImGui::CalcTextSize(word.c_str(), nullptr, false, size.x - 40);
+    const ImVec2 size = ImGui::GetIO().DisplaySize,
+                 text = ImGui::CalcTextSize(word.c_str(), nullptr, false, size.x - 40);
     const ImVec2 at{(size.x - text.x) * 0.5f, size.y - text.y - 16};
     ImDrawList& list = *ImGui::GetForegroundDrawList();
-    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + text.x + 8, at.y + text.y + 4}, IM_COL32(0, 0, 0, 150), 4);
+    list.AddRectFilled({at.x - 8, at.y - 4}, {at.x + text.x + 8, at.y + text.y + 4},
+                       IM_COL32(0, 0, 0, 150), 4);
     list.AddText(nullptr, 0, at, kInk, word.c_str(), nullptr, size.x - 40);
 }
 
-void Panel::draw_load(const std::string& scene, const std::string& what, double share, double elapsed_s) {
+void Panel::draw_load(const std::string& scene, const std::string& what, double share,
+                      double elapsed_s) {
     in_the_middle();
-    constexpr ImGuiWindowFlags kPlain = kBox | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+    constexpr ImGuiWindowFlags kPlain = kBox | ImGuiWindowFlags_NoTitleBar |
+                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
     if (ImGui::Begin("Loading", nullptr, kPlain)) {
         ImGui::TextUnformatted(scene.c_str());
         ImGui::TextUnformatted(what.c_str());
@@ -274,7 +283,8 @@ void Panel::draw_load(const std::string& scene, const std::string& what, double 
         if (share >= 0)
             ImGui::ProgressBar(static_cast<float>(share), {width, 0});
         else // how far it is nobody knows; that it goes on, one sees
-            ImGui::ProgressBar(static_cast<float>(elapsed_s - std::floor(elapsed_s)), {width, 6}, "");
+            ImGui::ProgressBar(static_cast<float>(elapsed_s - std::floor(elapsed_s)), {width, 6},
+                               "");
         ImGui::TextDisabled("%.0f s    Esc ends", elapsed_s);
     }
     ImGui::End();

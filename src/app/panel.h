@@ -55,13 +55,15 @@ public:
     static void draw_line(const std::string& line);
     void draw_help();
     /// A list to choose from; what was chosen.
-    [[nodiscard]] std::optional<std::filesystem::path> draw_recent(const std::vector<std::filesystem::path>& scenes);
+    [[nodiscard]] std::optional<std::filesystem::path>
+    draw_recent(const std::vector<std::filesystem::path>& scenes);
     /// Shaders that did not build.
     static void draw_messages(const std::vector<std::string>& messages);
     /// A few words at the lower edge.
     static void draw_word(const std::string& word);
     /// All there is while a scene loads. `share` below 0: not known.
-    static void draw_load(const std::string& scene, const std::string& what, double share, double elapsed_s);
+    static void draw_load(const std::string& scene, const std::string& what, double share,
+                          double elapsed_s);
 
     bool shown = true;
     bool help = false;

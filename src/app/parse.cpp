@@ -90,7 +90,10 @@ std::pair<int, int> parse_size(std::string_view option, std::string_view text) {
 
 WindowPlace parse_window(std::string_view option, std::string_view text) {
     constexpr int kFarthest = 32767; // X11's own limit
-    const auto fail = [&] { return option_error(option, text, "WIDTHxHEIGHT or WIDTHxHEIGHT+X+Y in pixels, such as 1280x720+100+50"); };
+    const auto fail = [&] {
+        return option_error(option, text,
+                            "WIDTHxHEIGHT or WIDTHxHEIGHT+X+Y in pixels, such as 1280x720+100+50");
+    };
     const auto parts = split(text, '+');
     if (parts.size() != 1 && parts.size() != 3)
         throw fail();
@@ -114,7 +117,8 @@ double parse_step(std::string_view option, std::string_view text, NumberRange ra
     const auto over = whole_number<double>(parts[0]), under = whole_number<double>(parts[1]);
     const double step = over && under ? *over / *under : 0;
     if (!std::isfinite(step) || step < range.least || step > range.most)
-        throw option_error(option, text, range_text(range, "a number") + ", or a fraction such as 1/144");
+        throw option_error(option, text,
+                           range_text(range, "a number") + ", or a fraction such as 1/144");
     return step;
 }
 
@@ -147,14 +151,21 @@ std::vector<std::string> parse_aovs(std::string_view option, std::string_view te
 
 blades::CullTests parse_cull(std::string_view option, std::string_view text) {
     blades::CullTests tests{false, false, false, false, false};
-    const std::array<std::pair<std::string_view, bool*>, 5> known = {{{"frustum", &tests.frustum}, {"orientation", &tests.orientation}, {"distance", &tests.distance},
-                                                                   {"occlusion", &tests.occlusion}, {"samples", &tests.samples}}};
+    const std::array<std::pair<std::string_view, bool*>, 5> known = {
+        {{"frustum", &tests.frustum},
+         {"orientation", &tests.orientation},
+         {"distance", &tests.distance},
+         {"occlusion", &tests.occlusion},
+         {"samples", &tests.samples}}};
     if (text == "none")
         return tests;
     for (const std::string_view part : split(text, ',')) {
-        const auto found = std::find_if(known.begin(), known.end(), [&](const auto& test) { return test.first == part; });
+        const auto found = std::find_if(known.begin(), known.end(),
+                                        [&](const auto& test) { return test.first == part; });
         if (found == known.end() || *found->second)
-            throw option_error(option, text, "none, or each once, of frustum,orientation,distance,occlusion,samples");
+            throw option_error(
+                option, text,
+                "none, or each once, of frustum,orientation,distance,occlusion,samples");
         *found->second = true;
     }
     return tests;
@@ -170,7 +181,8 @@ scene::Pose parse_eye(const std::string& option, const std::string& text) {
     }
 }
 
-feed::Endpoint parse_endpoint(std::string_view option, std::string_view text, std::string_view expected) {
+feed::Endpoint parse_endpoint(std::string_view option, std::string_view text,
+                              std::string_view expected) {
     if (const auto endpoint = feed::parse_endpoint(text))
         return *endpoint;
     throw option_error(option, text, expected);
@@ -181,7 +193,8 @@ glm::dvec2 parse_place(std::string_view option, std::string_view text) {
     const std::size_t comma = text.find(',');
     if (comma == std::string_view::npos || text.find(',', comma + 1) != std::string_view::npos)
         throw option_error(option, text, "x,z");
-    return {parse_number(option, text.substr(0, comma), kPlace), parse_number(option, text.substr(comma + 1), kPlace)};
+    return {parse_number(option, text.substr(0, comma), kPlace),
+            parse_number(option, text.substr(comma + 1), kPlace)};
 }
 
 } // namespace sward::app

@@ -32,7 +32,8 @@ struct NumberRange {
                                       NumberRange range);
 /// "1280x720". Throws Error(kOverLimit) above 16384 a side.
 [[nodiscard]] std::pair<int, int> parse_size(std::string_view option, std::string_view text);
-/// "1280x720", or with the place of its corner "1280x720+100+50" ("+-1920+0": left of the first screen). Throws Error(kOverLimit) as parse_size.
+/// "1280x720", or with the place of its corner "1280x720+100+50" ("+-1920+0": left of the first
+/// screen). Throws Error(kOverLimit) as parse_size.
 [[nodiscard]] WindowPlace parse_window(std::string_view option, std::string_view text);
 /// Seconds from one frame to the next: a number, or a fraction such as 1/144.
 [[nodiscard]] double parse_step(std::string_view option, std::string_view text, NumberRange range);
@@ -48,7 +49,8 @@ struct NumberRange {
 [[nodiscard]] scene::Pose parse_eye(const std::string& option, const std::string& text);
 
 /// "udp:PORT" or "udp:HOST:PORT".
-[[nodiscard]] feed::Endpoint parse_endpoint(std::string_view option, std::string_view text, std::string_view expected);
+[[nodiscard]] feed::Endpoint parse_endpoint(std::string_view option, std::string_view text,
+                                            std::string_view expected);
 
 /// The value that `text` names in a table of choices.
 template<class T, std::size_t N>

@@ -24,7 +24,8 @@ namespace sward::app {
 [[nodiscard]] std::filesystem::path set_cache_directory();
 /// Beside it: meshes packed with balls.
 [[nodiscard]] std::filesystem::path sphere_cache_directory();
-/// $XDG_STATE_HOME/sward/recent-scenes, by default ~/.local/state/sward/recent-scenes; empty where there is neither.
+/// $XDG_STATE_HOME/sward/recent-scenes, by default ~/.local/state/sward/recent-scenes; empty where
+/// there is neither.
 [[nodiscard]] std::filesystem::path recent_file();
 
 } // namespace sward::app

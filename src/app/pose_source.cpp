@@ -16,11 +16,14 @@ class FreeFlight : public PoseSource {
 public:
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         controls_.step(pose.pose, moment.input, moment.real_s);
-        keep_above_ground(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
+        keep_above_ground(pose.pose,
+                          moment.land.height(pose.pose.position.x, pose.pose.position.z));
         pose.roll_deg = 0;
     }
     [[nodiscard]] bool in_real_time() const override { return true; }
-    [[nodiscard]] std::string note() const override { return fmt::format("set {:.3g} m/s", controls_.speed_mps()); }
+    [[nodiscard]] std::string note() const override {
+        return fmt::format("set {:.3g} m/s", controls_.speed_mps());
+    }
 
 private:
     FlyControls controls_;

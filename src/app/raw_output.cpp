@@ -9,8 +9,11 @@
 namespace sward::app {
 
 void write_raw(const scene::Picture& picture) {
-    if (std::fwrite(picture.rgb.data(), 1, picture.rgb.size(), stdout) != picture.rgb.size() || std::fflush(stdout) != 0)
-        throw base::Error(base::ExitCode::kIo, std::string("stdout: cannot write: found ") + std::strerror(errno) + ", expected a program that reads it");
+    if (std::fwrite(picture.rgb.data(), 1, picture.rgb.size(), stdout) != picture.rgb.size() ||
+        std::fflush(stdout) != 0)
+        throw base::Error(base::ExitCode::kIo, std::string("stdout: cannot write: found ") +
+                                                   std::strerror(errno) +
+                                                   ", expected a program that reads it");
 }
 
 } // namespace sward::app

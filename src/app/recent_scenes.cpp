@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kFileLimit = 1u << 16;
 
 bool fits_a_line(std::string_view path) {
-    return path.starts_with('/') && std::none_of(path.begin(), path.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; });
+    return path.starts_with('/') && std::none_of(path.begin(), path.end(), [](char c) {
+               return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+           });
 }
 
 } // namespace
@@ -49,7 +51,8 @@ std::string format_recent(const std::vector<fs::path>& list) {
 
 std::vector<fs::path> read_recent(const fs::path& file) {
     try {
-        return file.empty() ? std::vector<fs::path>{} : parse_recent(base::read_text(file, kFileLimit));
+        return file.empty() ? std::vector<fs::path>{}
+                            : parse_recent(base::read_text(file, kFileLimit));
     } catch (const base::Error&) { // there is none yet, most often
         return {};
     }
@@ -61,7 +64,9 @@ void note_recent(const fs::path& file, const fs::path& scene) {
     try {
         std::error_code error;
         fs::create_directories(file.parent_path(), error);
-        base::write_file_atomic(file, format_recent(with_recent(read_recent(file), fs::absolute(scene).lexically_normal())));
+        base::write_file_atomic(
+            file,
+            format_recent(with_recent(read_recent(file), fs::absolute(scene).lexically_normal())));
     } catch (const base::Error& error) {
         base::log_debug(std::string("recent scenes: ") + error.what());
     }

@@ -55,7 +55,8 @@ private:
     int fd_;
 };
 
-/// The texgen beside us, by its content: clocks may be wrong. Empty where it cannot be read; baking will say why.
+/// The texgen beside us, by its content: clocks may be wrong. Empty where it cannot be read; baking
+/// will say why.
 std::string baker() {
     try {
         return base::sha256_hex(base::read_file(texgen_program(), kProgramLimit));
@@ -100,7 +101,8 @@ std::optional<double> share_of(std::string_view line, std::string_view* part) {
     const std::size_t colon = line.rfind(": ");
     int percent = 0;
     if (colon == std::string_view::npos || !line.ends_with(" %") ||
-        std::from_chars(line.data() + colon + 2, line.data() + line.size() - 2, percent).ec != std::errc())
+        std::from_chars(line.data() + colon + 2, line.data() + line.size() - 2, percent).ec !=
+            std::errc())
         return {};
     *part = line.substr(0, colon);
     return std::clamp(percent / 100.0, 0.0, 1.0);
@@ -115,7 +117,8 @@ void bake(const fs::path& preset, const fs::path& set, const LoadTold& told) {
         arguments.emplace_back("-q");
     std::function<void(std::string_view)> listen;
     if (told) {
-        const std::string what = fmt::format("baking the grass set of {}", base::printable(preset.filename().native(), 100));
+        const std::string what = fmt::format("baking the grass set of {}",
+                                             base::printable(preset.filename().native(), 100));
         told(what, {});
         listen = [what, &told](std::string_view line) {
             std::string_view part;
@@ -175,7 +178,8 @@ grass::GrassSet load_grass(const scene::Scene& scene, const LoadTold& told) {
         return std::move(*cached);
     std::error_code ignored;
     if (sets_nothing(text))
-        base::log_warning(fmt::format("{}: sets nothing; the default meadow is baked", base::printable(place.path.native(), 1024)));
+        base::log_warning(fmt::format("{}: sets nothing; the default meadow is baked",
+                                      base::printable(place.path.native(), 1024)));
     fs::remove(baker_note(set), ignored);
     fs::remove_all(set, ignored); // ours alone, and nothing in it can be trusted
     bake(place.path, set, told);

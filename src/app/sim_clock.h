@@ -8,15 +8,18 @@ namespace sward::app {
 /// The viewer's time: by the clock or by a fixed step, slowed, standing, or a step at a time.
 class SimClock {
 public:
-    /// `fixed_s`: simulated from picture to picture, whatever the clock says. `step_s`: what a single step is.
-    SimClock(double start_s, double step_s, std::optional<double> fixed_s) : step_s_(step_s), fixed_s_(fixed_s), time_s_(start_s) {}
+    /// `fixed_s`: simulated from picture to picture, whatever the clock says. `step_s`: what a
+    /// single step is.
+    SimClock(double start_s, double step_s, std::optional<double> fixed_s)
+        : step_s_(step_s), fixed_s_(fixed_s), time_s_(start_s) {}
 
     /// How far a picture goes on.
     struct Tick {
         double real_s = 0; ///< what moves a free camera: also while time stands
         double dt_s = 0;   ///< simulated
     };
-    /// Before a picture; `elapsed_s` since the one before. After a stop time does not leap: kLongest_s at most.
+    /// Before a picture; `elapsed_s` since the one before. After a stop time does not leap:
+    /// kLongest_s at most.
     Tick tick(double elapsed_s);
 
     void toggle_pause() { paused_ = !paused_; }

@@ -29,11 +29,13 @@ template<class T> std::string hash_of(const std::vector<T>& items) {
 }
 
 std::string key_of(const scene::Mesh& mesh, const assets::PackingSettings& settings) {
-    return base::sha256_hex(fmt::format("{} {} {} {} {}", kPackingVersion, settings.most_spheres, settings.cells, hash_of(mesh.positions),
+    return base::sha256_hex(fmt::format("{} {} {} {} {}", kPackingVersion, settings.most_spheres,
+                                        settings.cells, hash_of(mesh.positions),
                                         hash_of(mesh.triangles)));
 }
 
-/// The balls of a file: their SHA-256 in hexadecimal, then four floats each. Nothing where there is no such file, or a damaged one.
+/// The balls of a file: their SHA-256 in hexadecimal, then four floats each. Nothing where there is
+/// no such file, or a damaged one.
 std::optional<scene::SphereSet> read_cached(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(fs::symlink_status(file, ignored)))
@@ -51,7 +53,8 @@ std::optional<scene::SphereSet> read_cached(const fs::path& file) {
     } catch (const base::Error& error) {
         base::log_debug(error.what());
     }
-    base::log_warning(fmt::format("the cached spheres {} cannot be used: the mesh is packed again", base::printable(file.native(), 200)));
+    base::log_warning(fmt::format("the cached spheres {} cannot be used: the mesh is packed again",
+                                  base::printable(file.native(), 200)));
     return {};
 }
 
@@ -63,23 +66,27 @@ void write_cached(const fs::path& file, const scene::SphereSet& set) {
         fs::create_directories(file.parent_path());
         base::write_file_atomic(file, text);
     } catch (const std::exception& error) {
-        base::log_warning(fmt::format("the spheres of a mesh are not kept: {}", base::printable(error.what(), 300)));
+        base::log_warning(fmt::format("the spheres of a mesh are not kept: {}",
+                                      base::printable(error.what(), 300)));
     }
 }
 
-scene::SphereSet packed(const fs::path& name, const scene::Mesh& mesh, const assets::PackingSettings& settings) {
+scene::SphereSet packed(const fs::path& name, const scene::Mesh& mesh,
+                        const assets::PackingSettings& settings) {
     const fs::path file = sphere_cache_directory() / (key_of(mesh, settings) + ".balls");
     if (auto cached = read_cached(file))
         return std::move(*cached);
     scene::SphereSet set = assets::pack_spheres(mesh, settings, name);
-    base::log_info(fmt::format("{}: packed with {} spheres on first use", base::printable(name.native(), 200), set.spheres.size()));
+    base::log_info(fmt::format("{}: packed with {} spheres on first use",
+                               base::printable(name.native(), 200), set.spheres.size()));
     write_cached(file, set);
     return set;
 }
 
 } // namespace
 
-std::map<fs::path, scene::SphereSet> load_spheres(const scene::Scene& scene, const std::map<fs::path, scene::Mesh>& meshes) {
+std::map<fs::path, scene::SphereSet> load_spheres(const scene::Scene& scene,
+                                                  const std::map<fs::path, scene::Mesh>& meshes) {
     std::map<fs::path, int> most;
     for (const scene::ObjectSpec& object : scene.objects)
         if (object.collides && !object.mesh.empty())

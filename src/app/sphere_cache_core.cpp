@@ -4,7 +4,8 @@
 namespace sward::app {
 
 /// The core build reads no meshes: load_mesh has refused them before.
-std::map<std::filesystem::path, scene::SphereSet> load_spheres(const scene::Scene&, const std::map<std::filesystem::path, scene::Mesh>&) {
+std::map<std::filesystem::path, scene::SphereSet>
+load_spheres(const scene::Scene&, const std::map<std::filesystem::path, scene::Mesh>&) {
     return {};
 }
 

@@ -39,9 +39,14 @@ std::string stats_json(const render::FrameStats& stats, const std::string& gpu,
                         {"distance", stats.culled_by_distance},
                         {"occlusion", stats.culled_by_occlusion},
                         {"samples", stats.culled_by_samples}}}};
-    json["physics"] = {{"blades", stats.blades_simulated}, {"steps", stats.physics_steps}, {"patches_stepped", stats.patches_stepped}, {"bytes", stats.physics_bytes}};
+    json["physics"] = {{"blades", stats.blades_simulated},
+                       {"steps", stats.physics_steps},
+                       {"patches_stepped", stats.patches_stepped},
+                       {"bytes", stats.physics_bytes}};
     if (stats.track_bytes > 0)
-        json["tracks"] = {{"pages", stats.track_pages}, {"bytes", stats.track_bytes}, {"memory_bytes", stats.track_memory_bytes}};
+        json["tracks"] = {{"pages", stats.track_pages},
+                          {"bytes", stats.track_bytes},
+                          {"memory_bytes", stats.track_memory_bytes}};
     json["fragments"] = {{"shells", stats.shell_fragments}, {"slices", stats.slice_fragments}};
     if (settings.count_steps)
         json["march"] = {{"steps", stats.march_steps}, {"reads", stats.march_reads}};

@@ -5,8 +5,8 @@
 
 namespace sward::app {
 
-/// The day on which a scene's sun stands where it does, at a latitude: where it stands at other hours of it. The scene's own hour gives
-/// the scene's own sun.
+/// The day on which a scene's sun stands where it does, at a latitude: where it stands at other
+/// hours of it. The scene's own hour gives the scene's own sun.
 class SunDay {
 public:
     SunDay(const scene::SunSpec& sun, double latitude_deg);

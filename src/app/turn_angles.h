@@ -18,8 +18,11 @@ struct Angles {
 
 /// Of a frame (x right, y up, z behind), as camera_of() turns.
 [[nodiscard]] inline Angles angles_of(const glm::dquat& turn) {
-    const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0), up = turn * glm::dvec3(0, 1, 0);
-    return {std::atan2(ahead.x, -ahead.z) / kDegree, std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree, std::atan2(-right.y, up.y) / kDegree};
+    const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0),
+                     up = turn * glm::dvec3(0, 1, 0);
+    return {std::atan2(ahead.x, -ahead.z) / kDegree,
+            std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree,
+            std::atan2(-right.y, up.y) / kDegree};
 }
 
 } // namespace sward::app

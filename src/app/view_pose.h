@@ -15,7 +15,8 @@ struct ViewPose {
 /// Its camera for a picture of so many pixels.
 [[nodiscard]] inline Camera camera_of(const ViewPose& view, int width, int height) {
     const scene::Pose& at = view.pose;
-    return sward::camera_of({at.position, at.yaw_deg, at.pitch_deg, view.roll_deg, at.fov_deg}, width, height);
+    return sward::camera_of({at.position, at.yaw_deg, at.pitch_deg, view.roll_deg, at.fov_deg},
+                            width, height);
 }
 
 } // namespace sward::app

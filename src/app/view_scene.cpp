@@ -12,7 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kElevation = {".tif", ".tiff", ".hgt", ".raw", ".r16", ".vrt", ".img", ".asc", ".bil"};
+constexpr std::array<std::string_view, 9> kElevation = {".tif", ".tiff", ".hgt", ".raw", ".r16",
+                                                        ".vrt", ".img",  ".asc", ".bil"};
 
 /// As a TOML string.
 std::string quoted(const std::string& text) {
@@ -32,7 +33,8 @@ std::string quoted(const std::string& text) {
 
 bool is_elevation(const fs::path& file) {
     std::string extension = file.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     return std::find(kElevation.begin(), kElevation.end(), extension) != kElevation.end();
 }
 
@@ -51,7 +53,8 @@ scene::Scene open_scene(fs::path path) {
 
 std::string scene_title(const scene::Scene& scene) {
     const fs::path whole = fs::absolute(scene.file).lexically_normal();
-    return whole.filename() == "scene.toml" ? whole.parent_path().filename().string() : whole.filename().string();
+    return whole.filename() == "scene.toml" ? whole.parent_path().filename().string()
+                                            : whole.filename().string();
 }
 
 } // namespace sward::app

@@ -7,7 +7,8 @@
 
 namespace sward::app {
 
-/// Time of day and mean wind of the scene that is shown: what keys and sliders change without a reload.
+/// Time of day and mean wind of the scene that is shown: what keys and sliders change without a
+/// reload.
 struct Weather {
     Weather(const scene::Scene& scene, double latitude_deg);
 
@@ -19,7 +20,8 @@ struct Weather {
     /// Does what a press asks for, if it is about these.
     void act(Action action);
 
-    static constexpr double kHourStep = 0.25, kWindStep_mps = 1, kTurnStep_deg = 10, kMostWind_mps = 60;
+    static constexpr double kHourStep = 0.25, kWindStep_mps = 1, kTurnStep_deg = 10,
+                            kMostWind_mps = 60;
 };
 
 } // namespace sward::app

@@ -26,19 +26,27 @@ KeyLog g_keys;
 std::optional<std::filesystem::path> g_dropped;
 std::string g_glfw_error; // the last one, for the message
 
-static_assert(key::kSpace == GLFW_KEY_SPACE && key::kMinus == GLFW_KEY_MINUS && key::kPeriod == GLFW_KEY_PERIOD && key::kEqual == GLFW_KEY_EQUAL &&
-              key::kLeftBracket == GLFW_KEY_LEFT_BRACKET && key::kRightBracket == GLFW_KEY_RIGHT_BRACKET && key::kEscape == GLFW_KEY_ESCAPE &&
-              key::kBackspace == GLFW_KEY_BACKSPACE && key::kDelete == GLFW_KEY_DELETE && key::kPageUp == GLFW_KEY_PAGE_UP &&
-              key::kPageDown == GLFW_KEY_PAGE_DOWN && key::kHome == GLFW_KEY_HOME && key::kEnd == GLFW_KEY_END && key::kF11 == GLFW_KEY_F11 &&
-              key::kF12 == GLFW_KEY_F12 && key::kLeftShift == GLFW_KEY_LEFT_SHIFT && key::kLeftControl == GLFW_KEY_LEFT_CONTROL &&
-              key::kRightShift == GLFW_KEY_RIGHT_SHIFT && key::kRightControl == GLFW_KEY_RIGHT_CONTROL && 'A' == GLFW_KEY_A && '1' == GLFW_KEY_1);
+static_assert(key::kSpace == GLFW_KEY_SPACE && key::kMinus == GLFW_KEY_MINUS &&
+              key::kPeriod == GLFW_KEY_PERIOD && key::kEqual == GLFW_KEY_EQUAL &&
+              key::kLeftBracket == GLFW_KEY_LEFT_BRACKET &&
+              key::kRightBracket == GLFW_KEY_RIGHT_BRACKET && key::kEscape == GLFW_KEY_ESCAPE &&
+              key::kBackspace == GLFW_KEY_BACKSPACE && key::kDelete == GLFW_KEY_DELETE &&
+              key::kPageUp == GLFW_KEY_PAGE_UP && key::kPageDown == GLFW_KEY_PAGE_DOWN &&
+              key::kHome == GLFW_KEY_HOME && key::kEnd == GLFW_KEY_END &&
+              key::kF11 == GLFW_KEY_F11 && key::kF12 == GLFW_KEY_F12 &&
+              key::kLeftShift == GLFW_KEY_LEFT_SHIFT &&
+              key::kLeftControl == GLFW_KEY_LEFT_CONTROL &&
+              key::kRightShift == GLFW_KEY_RIGHT_SHIFT &&
+              key::kRightControl == GLFW_KEY_RIGHT_CONTROL && 'A' == GLFW_KEY_A &&
+              '1' == GLFW_KEY_1);
 
 void on_error(int, const char* text) {
     g_glfw_error = text == nullptr ? "" : text;
 }
 
 void on_key(GLFWwindow*, int key, int, int action, int mods) {
-    g_keys.take({key, action != GLFW_RELEASE, action == GLFW_REPEAT, (mods & GLFW_MOD_CONTROL) != 0, glfwGetTime()});
+    g_keys.take({key, action != GLFW_RELEASE, action == GLFW_REPEAT, (mods & GLFW_MOD_CONTROL) != 0,
+                 glfwGetTime()});
 }
 
 void on_focus(GLFWwindow*, int focused) {
@@ -143,7 +151,9 @@ void Window::listen() const {
 
 bool Window::asked_to_end() const {
     const auto& presses = g_keys.presses();
-    return closed() || std::any_of(presses.begin(), presses.end(), [](const Press& press) { return press.action == Action::kQuit; });
+    return closed() || std::any_of(presses.begin(), presses.end(), [](const Press& press) {
+               return press.action == Action::kQuit;
+           });
 }
 
 void Window::forget_keys() {
@@ -163,7 +173,8 @@ void Window::set_title(const std::string& title) {
 
 void Window::toggle_full_screen() {
     if (glfwGetWindowMonitor(window_) != nullptr) {
-        glfwSetWindowMonitor(window_, nullptr, in_window_.x, in_window_.y, in_window_.z, in_window_.w, 0);
+        glfwSetWindowMonitor(window_, nullptr, in_window_.x, in_window_.y, in_window_.z,
+                             in_window_.w, 0);
         return;
     }
     glfwGetWindowPos(window_, &in_window_.x, &in_window_.y);
@@ -177,7 +188,8 @@ void Window::toggle_full_screen() {
         glm::ivec2 at{0};
         glfwGetMonitorPos(monitors[i], &at.x, &at.y);
         const GLFWvidmode* const mode = glfwGetVideoMode(monitors[i]);
-        if (mode != nullptr && middle.x >= at.x && middle.y >= at.y && middle.x < at.x + mode->width && middle.y < at.y + mode->height)
+        if (mode != nullptr && middle.x >= at.x && middle.y >= at.y &&
+            middle.x < at.x + mode->width && middle.y < at.y + mode->height)
             chosen = monitors[i];
     }
     const GLFWvidmode* const mode = chosen == nullptr ? nullptr : glfwGetVideoMode(chosen);
@@ -234,7 +246,9 @@ void Window::read_devices(Input& input) {
         int axes = 0, buttons = 0;
         const float* const axis = glfwGetJoystickAxes(id, &axes);
         const unsigned char* const button = glfwGetJoystickButtons(id, &buttons);
-        readings.push_back({guid, {axis, static_cast<std::size_t>(axes)}, {button, static_cast<std::size_t>(buttons)}});
+        readings.push_back({guid,
+                            {axis, static_cast<std::size_t>(axes)},
+                            {button, static_cast<std::size_t>(buttons)}});
     }
     devices_.read(readings);
     add_devices(devices_, input);
@@ -245,7 +259,9 @@ void Window::read_gamepad(Input& input) const {
     GLFWgamepadstate pad{};
     for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
         const char* const guid = glfwGetJoystickGUID(id);
-        if (glfwJoystickIsGamepad(id) == GLFW_FALSE || glfwGetGamepadState(id, &pad) == GLFW_FALSE || (guid != nullptr && devices_.map().find(guid) != nullptr))
+        if (glfwJoystickIsGamepad(id) == GLFW_FALSE ||
+            glfwGetGamepadState(id, &pad) == GLFW_FALSE ||
+            (guid != nullptr && devices_.map().find(guid) != nullptr))
             continue;
         const auto trigger = [&](int index) {
             return 0.5 * (static_cast<double>(pad.axes[index]) + 1);

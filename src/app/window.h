@@ -14,8 +14,8 @@ struct GLFWwindow;
 
 namespace sward::app {
 
-/// A window with an OpenGL 4.5 core context, current on this thread while it lives. One at a time. Throws Error(kNoGpu) without a
-/// display or without OpenGL 4.5, with a hint to `render`.
+/// A window with an OpenGL 4.5 core context, current on this thread while it lives. One at a time.
+/// Throws Error(kNoGpu) without a display or without OpenGL 4.5, with a hint to `render`.
 class Window {
 public:
     Window(const std::string& title, const WindowPlace& place, bool debug);
@@ -31,7 +31,8 @@ public:
     [[nodiscard]] Input poll(bool panel_has_mouse, bool panel_has_keyboard);
     /// Joysticks, wheels and pedals, bound by their GUIDs; they come and go as they are plugged in.
     void use_devices(input::ControlMap map);
-    /// Notes events and leaves them for poll(): often, while something takes long. Touches no GL state.
+    /// Notes events and leaves them for poll(): often, while something takes long. Touches no GL
+    /// state.
     void listen() const;
     /// Whether Esc was pressed, or the window closed, and poll() has not told yet.
     [[nodiscard]] bool asked_to_end() const;
@@ -53,9 +54,9 @@ private:
     void read_gamepad(Input& input) const;
 
     GLFWwindow* window_ = nullptr;
-    bool looking_ = false;       ///< the right button holds the mouse
-    glm::dvec2 cursor_{0, 0};    ///< where it was, pixels
-    glm::ivec4 in_window_{0};    ///< x, y, width, height before full screen
+    bool looking_ = false;    ///< the right button holds the mouse
+    glm::dvec2 cursor_{0, 0}; ///< where it was, pixels
+    glm::ivec4 in_window_{0}; ///< x, y, width, height before full screen
     std::string title_;
     input::ControlReader devices_{{}};
 };

@@ -29,7 +29,8 @@ void settle_paths(scene::Scene& scene) {
         if (!on_earth && terrain.surface.empty())
             on_earth = place_on_earth(load_elevation(terrain));
         if (!on_earth)
-            throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "geo", "a latitude and longitude",
+            throw base::input_error(base::ExitCode::kBadInput, scene.file, 0, "geo",
+                                    "a latitude and longitude",
                                     "x and z: the terrain has no place on Earth");
         return on_earth(latitude, longitude);
     });
@@ -48,7 +49,8 @@ std::map<fs::path, scene::Mesh> load_meshes(const scene::Scene& scene) {
     return meshes;
 }
 
-/// What lies at time 0, by a mask: read as a density mask is, where it belongs on Earth or over the whole terrain.
+/// What lies at time 0, by a mask: read as a density mask is, where it belongs on Earth or over the
+/// whole terrain.
 scene::DensityMask load_track_mask(const fs::path& mask, const scene::Heightfield& ground) {
     scene::TerrainSpec spec;
     spec.mask = mask;

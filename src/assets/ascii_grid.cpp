@@ -22,8 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kDefaultNodata = -9999; // Esri's, where the header names none
-constexpr std::array<std::string_view, 10> kKeys = {"ncols", "nrows", "xllcorner", "yllcorner", "xllcenter", "yllcenter",
-                                                    "cellsize", "dx", "dy", "nodata_value"};
+constexpr std::array<std::string_view, 10> kKeys = {
+    "ncols",     "nrows",    "xllcorner", "yllcorner", "xllcenter",
+    "yllcenter", "cellsize", "dx",        "dy",        "nodata_value"};
 
 std::string lower(std::string_view text) {
     std::string small(text);
@@ -50,7 +51,9 @@ public:
     [[nodiscard]] int line() const { return line_; }
 
 private:
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v'; }
+    static bool is_blank(char c) {
+        return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
+    }
     std::string_view rest_;
     int line_ = 1;
 };
@@ -72,7 +75,8 @@ struct Header {
     std::string_view first; ///< word of the values
 };
 
-base::Error bad(const fs::path& path, int line, std::string_view what, std::string_view found, std::string_view expected) {
+base::Error bad(const fs::path& path, int line, std::string_view what, std::string_view found,
+                std::string_view expected) {
     return base::input_error(base::ExitCode::kBadInput, path, line, what, found, expected);
 }
 
@@ -81,18 +85,21 @@ Header read_header(const fs::path& path, Words& words) {
     while (true) {
         const std::string_view key = words.next();
         const std::string name = lower(key);
-        const bool letter = !name.empty() && name[0] >= 'a' && name[0] <= 'z' && name != "nan" && name != "inf";
+        const bool letter =
+            !name.empty() && name[0] >= 'a' && name[0] <= 'z' && name != "nan" && name != "inf";
         if (!letter) {
             header.first = key;
             return header;
         }
         if (std::find(kKeys.begin(), kKeys.end(), name) == kKeys.end())
-            throw bad(path, words.line(), "word in the header", base::printable(key), "a key of an ASCII grid, or a height");
+            throw bad(path, words.line(), "word in the header", base::printable(key),
+                      "a key of an ASCII grid, or a height");
         const std::string_view text = words.next();
         const std::optional<double> value = number(text);
         const bool may_be_nan = name == "nodata_value";
         if (!value || (!may_be_nan && !std::isfinite(*value)))
-            throw bad(path, words.line(), name, text.empty() ? "nothing" : base::printable(text), "a number, with a dot");
+            throw bad(path, words.line(), name, text.empty() ? "nothing" : base::printable(text),
+                      "a number, with a dot");
         if (may_be_nan)
             header.nodata = *value, header.declared = true;
     }
@@ -102,7 +109,8 @@ Header read_header(const fs::path& path, Words& words) {
 
 bool is_ascii_grid(std::span<const std::byte> head) {
     const std::string text = lower({reinterpret_cast<const char*>(head.data()), head.size()});
-    return std::any_of(kKeys.begin(), kKeys.end(), [&](std::string_view key) { return text.starts_with(key); });
+    return std::any_of(kKeys.begin(), kKeys.end(),
+                       [&](std::string_view key) { return text.starts_with(key); });
 }
 
 std::vector<float> read_ascii_grid(const fs::path& path, int width, int height) {
@@ -121,15 +129,20 @@ std::vector<float> read_ascii_grid(const fs::path& path, int width, int height) 
         const std::optional<double> value = number(word);
         // Where another number stands for voids, NaN is a mistake of whoever wrote it.
         if (!value || (std::isnan(*value) && header.declared && !std::isnan(header.nodata)))
-            throw bad(path, words.line(), fmt::format("height at column {}, row {}", values.size() % width, values.size() / width),
+            throw bad(path, words.line(),
+                      fmt::format("height at column {}, row {}", values.size() % width,
+                                  values.size() / width),
                       base::printable(word), "a number, with a dot");
         const auto metres = static_cast<float>(*value);
         // The largest floats are written with fewer digits than they have.
-        const bool is_void = metres == nodata || (std::abs(nodata) > 1e30f && std::abs(metres - nodata) <= 1e-5f * std::abs(nodata));
+        const bool is_void =
+            metres == nodata ||
+            (std::abs(nodata) > 1e30f && std::abs(metres - nodata) <= 1e-5f * std::abs(nodata));
         values.push_back(is_void ? std::numeric_limits<float>::quiet_NaN() : metres);
     }
     if (!word.empty())
-        throw bad(path, words.line(), "heights", fmt::format("more than {}: {}", count, base::printable(word)),
+        throw bad(path, words.line(), "heights",
+                  fmt::format("more than {}: {}", count, base::printable(word)),
                   fmt::format("{} for {} x {} posts", count, width, height));
     return values;
 }

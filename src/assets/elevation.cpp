@@ -83,8 +83,10 @@ scene::Heightfield from_picture(const scene::TerrainSpec& spec) {
                   "none: floating point is metres already");
     apply_height_range(spec, channel.full_scale, channel.values);
     if (channel.full_scale == 0)
-        std::replace_if(channel.values.begin(), channel.values.end(), [](float value) { return is_bare_void(value, false); },
-                        std::numeric_limits<float>::quiet_NaN());
+        std::replace_if(
+            channel.values.begin(), channel.values.end(),
+            [](float value) { return is_bare_void(value, false); },
+            std::numeric_limits<float>::quiet_NaN());
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (std::abs(channel.values[i]) > 1e5f) // NaN: a void
             throw bad(
@@ -123,12 +125,14 @@ bool is_named_kind(const std::string& extension) {
 scene::Heightfield from_named_kind(const scene::TerrainSpec& spec, const std::string& extension) {
     const fs::path& path = spec.elevation;
     std::error_code ignored;
-    const bool header = extension != ".r16" && fs::exists(fs::path(path).replace_extension(".json"), ignored);
+    const bool header =
+        extension != ".r16" && fs::exists(fs::path(path).replace_extension(".json"), ignored);
     if (extension == ".r16" || (extension == ".raw" && !header)) {
         if (!spec.size_m || !spec.height_m)
             throw bad(path, spec.size_m ? "terrain.height_m" : "terrain.size_m", "nothing",
-                      extension == ".r16" ? "the key: 16-bit posts carry neither size nor heights"
-                                          : "the key for 16-bit posts, or a header beside the file: NAME.json");
+                      extension == ".r16"
+                          ? "the key: 16-bit posts carry neither size nor heights"
+                          : "the key for 16-bit posts, or a header beside the file: NAME.json");
         return scene::read_raw16(path, *spec.size_m, *spec.height_m);
     }
     if (spec.size_m || spec.height_m)
@@ -140,7 +144,8 @@ scene::Heightfield from_named_kind(const scene::TerrainSpec& spec, const std::st
 } // namespace
 
 scene::Heightfield load_elevation(const scene::TerrainSpec& spec) {
-    const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    const GdalScope
+        silence; // its libraries complain on stderr, also while coordinates are transformed
     const base::HeldWarnings held;
     const fs::path& path = spec.elevation;
     const std::string normal = fs::absolute(path).lexically_normal().string();

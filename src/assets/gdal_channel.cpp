@@ -24,9 +24,12 @@ base::Error bad(const std::filesystem::path& path, std::string_view what, std::s
     return base::input_error(base::ExitCode::kBadInput, path, 0, what, found, expected);
 }
 
-/// A density's number: what stands for 1, 0 where the values are densities. A file that says a scale or an offset is taken at its word.
-double read_scale(GDALRasterBandH band, const std::filesystem::path& path, std::vector<float>& values) {
-    const double scale = GDALGetRasterScale(band, nullptr), offset = GDALGetRasterOffset(band, nullptr);
+/// A density's number: what stands for 1, 0 where the values are densities. A file that says a
+/// scale or an offset is taken at its word.
+double read_scale(GDALRasterBandH band, const std::filesystem::path& path,
+                  std::vector<float>& values) {
+    const double scale = GDALGetRasterScale(band, nullptr),
+                 offset = GDALGetRasterOffset(band, nullptr);
     if ((scale != 1 || offset != 0) && !GDALGetRasterColorTable(band)) {
         for (float& value : values)
             value = static_cast<float>(value * scale + offset);
@@ -42,16 +45,20 @@ double read_scale(GDALRasterBandH band, const std::filesystem::path& path, std::
 
 void require_real(GDALRasterBandH band, const std::filesystem::path& path) {
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(band)))
-        throw bad(path, "type of the pixels", GDALGetDataTypeName(GDALGetRasterDataType(band)), "whole numbers");
+        throw bad(path, "type of the pixels", GDALGetDataTypeName(GDALGetRasterDataType(band)),
+                  "whole numbers");
 }
 
-/// Indices to the red of their colours, unless they are classes; a colour of alpha 0 is no value, as a pixel's alpha is.
+/// Indices to the red of their colours, unless they are classes; a colour of alpha 0 is no value,
+/// as a pixel's alpha is.
 void look_up(GDALColorTableH table, bool classes, std::vector<float>& values) {
     const int count = GDALGetColorEntryCount(table);
     for (float& value : values) {
         if (std::isnan(value))
             continue;
-        const GDALColorEntry* colour = value >= 0 && value < static_cast<float>(count) ? GDALGetColorEntry(table, static_cast<int>(value)) : nullptr;
+        const GDALColorEntry* colour = value >= 0 && value < static_cast<float>(count)
+                                           ? GDALGetColorEntry(table, static_cast<int>(value))
+                                           : nullptr;
         if (colour && colour->c4 == 0)
             value = std::numeric_limits<float>::quiet_NaN();
         else if (!classes)
@@ -70,11 +77,14 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
     channel.width = GDALGetRasterXSize(dataset.get());
     channel.height = GDALGetRasterYSize(dataset.get());
     GDALRasterBandH band = choose_band(dataset.get(), path, std::max(request.band, 1), "mask");
-    check_size(path, channel.width, channel.height, 1, sizeof(float), std::filesystem::file_size(path), request.least_side);
+    check_size(path, channel.width, channel.height, 1, sizeof(float),
+               std::filesystem::file_size(path), request.least_side);
     const bool classes = request.palette == Palette::kIndices;
     std::vector<std::uint8_t> valid;
-    if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "AAIGrid") {
-        channel.values = read_ascii_grid(path, channel.width, channel.height); // GDAL reads garbage as 0
+    if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) ==
+        "AAIGrid") {
+        channel.values =
+            read_ascii_grid(path, channel.width, channel.height); // GDAL reads garbage as 0
     } else {
         gdal.read(band, path, channel.values);
         valid = gdal.read_valid(band, path, channel.values);
@@ -91,7 +101,8 @@ Channel read_gdal_channel(const std::filesystem::path& path, const ChannelReques
         channel.full_scale = classes ? 0 : 255;
     }
     std::array<double, 6> affine{};
-    channel.turned_loose = !GDALGetSpatialRef(dataset.get()) && GDALGetGeoTransform(dataset.get(), affine.data()) == CE_None;
+    channel.turned_loose = !GDALGetSpatialRef(dataset.get()) &&
+                           GDALGetGeoTransform(dataset.get(), affine.data()) == CE_None;
     if (request.frame)
         channel.placement = place_raster(dataset.get(), path, request.frame);
     return channel;

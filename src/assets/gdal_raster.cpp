@@ -38,12 +38,14 @@ base::Error bad(const fs::path& path, std::string_view what, std::string_view fo
 double unit_of(GDALRasterBandH band, const fs::path& path, bool& has_unit) {
     const std::optional<double> unit = metres_of_unit(GDALGetRasterUnitType(band), has_unit);
     if (!unit)
-        throw bad(path, "unit of the heights", base::printable(GDALGetRasterUnitType(band)), "metres or feet");
+        throw bad(path, "unit of the heights", base::printable(GDALGetRasterUnitType(band)),
+                  "metres or feet");
     return *unit;
 }
 
 /// Voids become NaN, the rest metres; anything else that is not a height is refused.
-void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std::uint8_t>& valid, Raster& raster) {
+void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std::uint8_t>& valid,
+               Raster& raster) {
     int has_scale = 0, has_offset = 0, has_nodata = 0;
     GDALGetRasterNoDataValue(band, &has_nodata);
     double scale = GDALGetRasterScale(band, &has_scale),
@@ -59,7 +61,8 @@ void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std
     for (std::size_t i = 0; i < raster.values.size(); ++i) {
         float& value = raster.values[i];
         // Scaled, -32000 may be a height.
-        const bool no_height = (!valid.empty() && valid[i] == 0) || std::isnan(value) || (plain && is_bare_void(value, has_nodata != 0));
+        const bool no_height = (!valid.empty() && valid[i] == 0) || std::isnan(value) ||
+                               (plain && is_bare_void(value, has_nodata != 0));
         const double metres = (double(value) * scale + offset) * unit;
         if (!no_height && !(std::abs(metres) <= kHighest_m))
             throw bad(
@@ -70,7 +73,8 @@ void to_metres(GDALRasterBandH band, const fs::path& path, const std::vector<std
     }
 }
 
-void read_band(const Dataset& dataset, const fs::path& path, int number, GdalScope& gdal, Raster& raster) {
+void read_band(const Dataset& dataset, const fs::path& path, int number, GdalScope& gdal,
+               Raster& raster) {
     const std::uint64_t file_bytes = fs::file_size(path);
     raster.width = GDALGetRasterXSize(dataset.get());
     raster.height = GDALGetRasterYSize(dataset.get());
@@ -81,8 +85,10 @@ void read_band(const Dataset& dataset, const fs::path& path, int number, GdalSco
         throw bad(path, "type of the heights", GDALGetDataTypeName(type), "real numbers");
     raster.full_scale = full_scale_of(band);
     std::vector<std::uint8_t> valid;
-    if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) == "AAIGrid") {
-        raster.values = read_ascii_grid(path, raster.width, raster.height); // GDAL reads garbage as 0
+    if (std::string_view(GDALGetDriverShortName(GDALGetDatasetDriver(dataset.get()))) ==
+        "AAIGrid") {
+        raster.values =
+            read_ascii_grid(path, raster.width, raster.height); // GDAL reads garbage as 0
     } else {
         gdal.read(band, path, raster.values);
         valid = gdal.read_valid(band, path, raster.values);
@@ -106,7 +112,8 @@ Raster read_gdal_raster(const fs::path& path, int band) {
 }
 
 bool is_bare_void(float value, bool declared) {
-    return std::isnan(value) || scene::is_void(value) || (std::isfinite(value) && std::abs(value) >= 3.4e38f) ||
+    return std::isnan(value) || scene::is_void(value) ||
+           (std::isfinite(value) && std::abs(value) >= 3.4e38f) ||
            (!declared && (value == -9999 || value == -99999 || value == -2147483648.0f));
 }
 

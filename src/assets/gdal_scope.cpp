@@ -73,14 +73,20 @@ GdalScope::~GdalScope() {
 std::string GdalScope::error(const char* otherwise) {
     base::refuse_if_starved();
     std::string message = std::exchange(error_, {}).value_or(otherwise);
-    // Its messages name the file, some twice, and ours name it too: a long path would push out what they say.
-    for (std::size_t at = 0; !opened_.empty() && (at = message.find(opened_, at)) != std::string::npos;)
-        message.erase(at, std::min(message.find_first_not_of(": ", at + opened_.size()), message.size()) - at);
+    // Its messages name the file, some twice, and ours name it too: a long path would push out what
+    // they say.
+    for (std::size_t at = 0;
+         !opened_.empty() && (at = message.find(opened_, at)) != std::string::npos;)
+        message.erase(
+            at,
+            std::min(message.find_first_not_of(": ", at + opened_.size()), message.size()) - at);
     return message.empty() ? otherwise : message;
 }
 
 Dataset GdalScope::open_features(const std::filesystem::path& path, const char* const* drivers) {
-    return Dataset(GDALOpenEx(plain_path(path).c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers, nullptr, nullptr));
+    return Dataset(GDALOpenEx(plain_path(path).c_str(),
+                              GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers,
+                              nullptr, nullptr));
 }
 
 Dataset GdalScope::open(const std::filesystem::path& path, const char* const* drivers) {
@@ -117,24 +123,28 @@ void GdalScope::read(GDALRasterBandH band, const std::filesystem::path& path,
             value -= value > 127 ? 256.0f : 0.0f;
 }
 
-std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band, const std::filesystem::path& path,
+std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band,
+                                                const std::filesystem::path& path,
                                                 const std::vector<float>& values) {
     std::vector<std::uint8_t> valid;
     if (GDALGetMaskFlags(band) != GMF_ALL_VALID) {
         const int width = GDALGetRasterBandXSize(band), height = GDALGetRasterBandYSize(band);
         valid.resize(values.size());
-        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, width, height, valid.data(), width, height, GDT_Byte, 0, 0) != CE_None)
-            throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode the mask", error("broken data"),
-                                    "a whole mask");
+        if (GDALRasterIO(GDALGetMaskBand(band), GF_Read, 0, 0, width, height, valid.data(), width,
+                         height, GDT_Byte, 0, 0) != CE_None)
+            throw base::input_error(base::ExitCode::kBadInput, path, 0, "cannot decode the mask",
+                                    error("broken data"), "a whole mask");
     }
     // GDAL heeds an alpha of 8 or 16 bits unsigned only.
     GDALDatasetH dataset = GDALGetBandDataset(band);
     for (int n = 1; valid.empty() && dataset && n <= GDALGetRasterCount(dataset); ++n)
-        if (GDALRasterBandH alpha = GDALGetRasterBand(dataset, n); alpha != band && GDALGetRasterColorInterpretation(alpha) == GCI_AlphaBand) {
+        if (GDALRasterBandH alpha = GDALGetRasterBand(dataset, n);
+            alpha != band && GDALGetRasterColorInterpretation(alpha) == GCI_AlphaBand) {
             std::vector<float> opacity;
             read(alpha, path, opacity);
             valid.resize(values.size());
-            std::transform(opacity.begin(), opacity.end(), valid.begin(), [](float a) { return static_cast<std::uint8_t>(a > 0 ? 255 : 0); });
+            std::transform(opacity.begin(), opacity.end(), valid.begin(),
+                           [](float a) { return static_cast<std::uint8_t>(a > 0 ? 255 : 0); });
         }
     // A mask inside the file hides the number from GDAL; it holds all the same.
     int has_nodata = 0;
@@ -148,25 +158,31 @@ std::vector<std::uint8_t> GdalScope::read_valid(GDALRasterBandH band, const std:
     return valid;
 }
 
-GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number, const char* what) {
+GDALRasterBandH choose_band(GDALDatasetH dataset, const std::filesystem::path& path, int number,
+                            const char* what) {
     const int bands = GDALGetRasterCount(dataset);
-    const auto is_alpha = [&](int n) { return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, n)) == GCI_AlphaBand; };
+    const auto is_alpha = [&](int n) {
+        return GDALGetRasterColorInterpretation(GDALGetRasterBand(dataset, n)) == GCI_AlphaBand;
+    };
     std::array<double, 6> affine{};
-    const int most = GDALGetGeoTransform(dataset, affine.data()) == CE_None ? kMostBands : kMostChannels;
+    const int most =
+        GDALGetGeoTransform(dataset, affine.data()) == CE_None ? kMostBands : kMostChannels;
     if (bands > most)
-        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "channels", std::to_string(bands),
-                                fmt::format("at most {}", most));
+        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "channels",
+                                std::to_string(bands), fmt::format("at most {}", most));
     if (number > bands || bands < 1)
         throw base::input_error(base::ExitCode::kBadInput, path, 0, "bands", std::to_string(bands),
                                 fmt::format("a band {}", std::max(number, 1)));
     if (number == 0 && bands > 1 && !(bands == 2 && is_alpha(2)))
-        base::log_warning(fmt::format("{}: {} bands; the first is the {}", base::printable(path.native(), 1024), bands, what));
+        base::log_warning(fmt::format("{}: {} bands; the first is the {}",
+                                      base::printable(path.native(), 1024), bands, what));
     return GDALGetRasterBand(dataset, std::max(number, 1));
 }
 
 bool is_signed_byte(GDALRasterBandH band) {
     const char* type = GDALGetMetadataItem(band, "PIXELTYPE", "IMAGE_STRUCTURE");
-    return GDALGetRasterDataType(band) == GDT_Byte && type && std::string_view(type) == "SIGNEDBYTE";
+    return GDALGetRasterDataType(band) == GDT_Byte && type &&
+           std::string_view(type) == "SIGNEDBYTE";
 }
 
 const char* type_name(GDALRasterBandH band) {

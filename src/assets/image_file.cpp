@@ -52,22 +52,27 @@ void check_spec(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
                                 "no more than the picture");
 }
 
-/// The picture is its display window; data that lies outside is cut off, and where there is none the picture has no value.
-Channel in_display_window(const std::filesystem::path& path, const OIIO::ImageSpec& spec, std::uint64_t file_bytes, int least_side,
-                          std::vector<float>& data) {
+/// The picture is its display window; data that lies outside is cut off, and where there is none
+/// the picture has no value.
+Channel in_display_window(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+                          std::uint64_t file_bytes, int least_side, std::vector<float>& data) {
     Channel channel;
     const bool whole = spec.full_width < 1 || spec.full_height < 1;
     channel.width = whole ? spec.width : spec.full_width;
     channel.height = whole ? spec.height : spec.full_height;
     check_size(path, channel.width, channel.height, 1, sizeof(float), file_bytes, least_side);
-    const std::int64_t dx = whole ? 0 : std::int64_t{spec.x} - spec.full_x, dy = whole ? 0 : std::int64_t{spec.y} - spec.full_y;
+    const std::int64_t dx = whole ? 0 : std::int64_t{spec.x} - spec.full_x,
+                       dy = whole ? 0 : std::int64_t{spec.y} - spec.full_y;
     if (channel.width == spec.width && channel.height == spec.height && dx == 0 && dy == 0) {
         channel.values = std::move(data);
         return channel;
     }
-    channel.values.assign(std::size_t(channel.width) * std::size_t(channel.height), std::numeric_limits<float>::quiet_NaN());
-    for (std::int64_t y = std::max<std::int64_t>(0, dy); y < std::min<std::int64_t>(channel.height, dy + spec.height); ++y)
-        for (std::int64_t x = std::max<std::int64_t>(0, dx); x < std::min<std::int64_t>(channel.width, dx + spec.width); ++x)
+    channel.values.assign(std::size_t(channel.width) * std::size_t(channel.height),
+                          std::numeric_limits<float>::quiet_NaN());
+    for (std::int64_t y = std::max<std::int64_t>(0, dy);
+         y < std::min<std::int64_t>(channel.height, dy + spec.height); ++y)
+        for (std::int64_t x = std::max<std::int64_t>(0, dx);
+             x < std::min<std::int64_t>(channel.width, dx + spec.width); ++x)
             channel.values[static_cast<std::size_t>(y * channel.width + x)] =
                 data[static_cast<std::size_t>((y - dy) * spec.width + (x - dx))];
     return channel;
@@ -119,9 +124,11 @@ Channel read_exr_channel(const std::filesystem::path& path, const ChannelRequest
     check_spec(path, spec, input.file_bytes(), 1);
     const int band = std::max(request.band, 1) - 1;
     if (band >= spec.nchannels)
-        throw bad(path, "channels", std::to_string(spec.nchannels), fmt::format("a channel {}", band + 1));
+        throw bad(path, "channels", std::to_string(spec.nchannels),
+                  fmt::format("a channel {}", band + 1));
     if (request.band == 0 && spec.nchannels > 1 && spec.alpha_channel != 1)
-        base::log_warning(fmt::format("{}: {} channels; the first is used", path.string(), spec.nchannels));
+        base::log_warning(
+            fmt::format("{}: {} channels; the first is used", path.string(), spec.nchannels));
     std::vector<float> data(std::size_t(spec.width) * std::size_t(spec.height));
     input.read(band, band + 1, data.data());
     if (spec.alpha_channel >= 0 && spec.alpha_channel != band) {
@@ -144,7 +151,8 @@ scene::Image read_exr(const std::filesystem::path& path) {
     image.width = spec.width;
     image.height = spec.height;
     image.channels = spec.channelnames;
-    image.texels.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
+    image.texels.resize(std::size_t(spec.width) * std::size_t(spec.height) *
+                        std::size_t(spec.nchannels));
     input.read(0, spec.nchannels, image.texels.data());
     for (const OIIO::ParamValue& attribute : spec.extra_attribs)
         if (attribute.type() == OIIO::TypeDesc::STRING)
@@ -154,7 +162,8 @@ scene::Image read_exr(const std::filesystem::path& path) {
 
 void check_rows_per_strip(const std::filesystem::path& path, std::optional<int> rows) {
     if (rows && (*rows < 1 || *rows > kMostSide))
-        throw bad(path, "attribute tiff:RowsPerStrip", std::to_string(*rows), fmt::format("1 to {}, or none", kMostSide));
+        throw bad(path, "attribute tiff:RowsPerStrip", std::to_string(*rows),
+                  fmt::format("1 to {}, or none", kMostSide));
 }
 
 void check_png_chunks(const std::filesystem::path& path) {
@@ -164,10 +173,12 @@ void check_png_chunks(const std::filesystem::path& path) {
     std::array<unsigned char, 8> head{};
     while (at + 12 <= size && file.seekg(static_cast<std::streamoff>(at)) &&
            file.read(reinterpret_cast<char*>(head.data()), head.size())) {
-        const std::uint64_t length = std::uint64_t{head[0]} << 24 | std::uint64_t{head[1]} << 16 | std::uint64_t{head[2]} << 8 | head[3];
+        const std::uint64_t length = std::uint64_t{head[0]} << 24 | std::uint64_t{head[1]} << 16 |
+                                     std::uint64_t{head[2]} << 8 | head[3];
         const std::string_view kind(reinterpret_cast<const char*>(head.data()) + 4, 4);
         if (length > size - at - 12)
-            throw bad(path, fmt::format("cannot decode: chunk {}", base::printable(kind)), fmt::format("{} bytes", length),
+            throw bad(path, fmt::format("cannot decode: chunk {}", base::printable(kind)),
+                      fmt::format("{} bytes", length),
                       fmt::format("at most {}, what is left of the file", size - at - 12));
         if (kind == "IEND")
             return;
@@ -176,17 +187,20 @@ void check_png_chunks(const std::filesystem::path& path) {
 }
 
 Channel read_channel(const std::filesystem::path& path, const ChannelRequest& request) {
-    const std::vector<std::byte> head = base::read_head(path, 16); // refuses what is no regular file
+    const std::vector<std::byte> head =
+        base::read_head(path, 16); // refuses what is no regular file
     const Format format = format_of(head);
     if (format == Format::kUnknown && !is_ascii_grid(head))
-        throw bad(path, "format", "none of them in its first bytes", "PNG, TIFF, EXR, JPEG or an ASCII grid");
+        throw bad(path, "format", "none of them in its first bytes",
+                  "PNG, TIFF, EXR, JPEG or an ASCII grid");
     if (std::filesystem::file_size(path) > kMostFileBytes)
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
                                 fmt::format("{} bytes", std::filesystem::file_size(path)),
                                 fmt::format("at most {}", kMostFileBytes));
     if (format == Format::kPng)
         check_png_chunks(path);
-    Channel channel = format == Format::kExr ? read_exr_channel(path, request) : read_gdal_channel(path, request);
+    Channel channel =
+        format == Format::kExr ? read_exr_channel(path, request) : read_gdal_channel(path, request);
     for (std::size_t i = 0; i < channel.values.size(); ++i)
         if (std::isinf(channel.values[i]))
             throw bad(

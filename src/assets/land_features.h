@@ -13,14 +13,17 @@ namespace sward::assets {
 /// Areas or lines in the terrain's frame: x, z (m).
 struct LandShapes {
     using Ring = std::vector<glm::dvec2>;
-    std::vector<std::vector<Ring>> areas; ///< rings of each; what an odd number of them surrounds is inside
+    std::vector<std::vector<Ring>>
+        areas; ///< rings of each; what an odd number of them surrounds is inside
     std::vector<Ring> lines;
 };
 
-/// What a feature's file holds, GeoJSON or GeoPackage, warped from its own CRS into the frame of a terrain that has one. Throws
-/// Error: kIo, kBadInput for another format, a layer or filter that fails, a terrain or file without a CRS, or nothing of the kind
-/// asked for (lines where `feature.width_m` is given, else areas); kOverLimit.
-[[nodiscard]] LandShapes read_features(const scene::LandFeature& feature, const scene::Heightfield& ground);
+/// What a feature's file holds, GeoJSON or GeoPackage, warped from its own CRS into the frame of a
+/// terrain that has one. Throws Error: kIo, kBadInput for another format, a layer or filter that
+/// fails, a terrain or file without a CRS, or nothing of the kind asked for (lines where
+/// `feature.width_m` is given, else areas); kOverLimit.
+[[nodiscard]] LandShapes read_features(const scene::LandFeature& feature,
+                                       const scene::Heightfield& ground);
 
 /// Share of each texel of a grid that the shapes cover, a row at a time.
 class FeatureRows {

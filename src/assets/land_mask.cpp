@@ -19,12 +19,13 @@ namespace {
 
 using scene::LandClass;
 
-constexpr double kTexelBytes = 12;     // on the GPU, mips included
-constexpr double kFinest_m = 0.5;      // nothing of a landcover is finer
-constexpr double kPerPixel = 4;        // texels a side for one of the raster's pixels: places for a border to wander
-constexpr int kSamples = 3;            // a side of a texel on a border
+constexpr double kTexelBytes = 12; // on the GPU, mips included
+constexpr double kFinest_m = 0.5;  // nothing of a landcover is finer
+constexpr double kPerPixel =
+    4; // texels a side for one of the raster's pixels: places for a border to wander
+constexpr int kSamples = 3; // a side of a texel on a border
 constexpr int kMostSamples = 16;
-constexpr double kWander = 0.6;        // of a border, in pixels, times the noise
+constexpr double kWander = 0.6; // of a border, in pixels, times the noise
 
 /// Sums over what a texel shows; linear.
 struct Mix {
@@ -38,12 +39,23 @@ struct Mix {
         land[scene::kLandDryness] += share * (0.5 + 0.5 * look.dryness);
         land[scene::kLandBare] += bears ? 0 : share;
         switch (look.ground) {
-        case scene::GroundKind::kSoil: break;
-        case scene::GroundKind::kRock: land[scene::kLandRock] += share; break;
-        case scene::GroundKind::kSand: land[scene::kLandSand] += share; break;
-        case scene::GroundKind::kGravel: land[scene::kLandGravel] += share; break;
-        case scene::GroundKind::kAsphalt: land[scene::kLandAsphalt] += share; break;
-        case scene::GroundKind::kWater: land[scene::kLandWater] += share; break;
+        case scene::GroundKind::kSoil:
+            break;
+        case scene::GroundKind::kRock:
+            land[scene::kLandRock] += share;
+            break;
+        case scene::GroundKind::kSand:
+            land[scene::kLandSand] += share;
+            break;
+        case scene::GroundKind::kGravel:
+            land[scene::kLandGravel] += share;
+            break;
+        case scene::GroundKind::kAsphalt:
+            land[scene::kLandAsphalt] += share;
+            break;
+        case scene::GroundKind::kWater:
+            land[scene::kLandWater] += share;
+            break;
         }
     }
 };
@@ -61,7 +73,8 @@ struct Grid {
 };
 
 /// The part of the terrain that areas and lines reach, with a rim.
-MaskArea area_of(const std::vector<LandShapes>& shapes, const scene::TerrainSpec& spec, glm::dvec2 terrain) {
+MaskArea area_of(const std::vector<LandShapes>& shapes, const scene::TerrainSpec& spec,
+                 glm::dvec2 terrain) {
     constexpr double kRim_m = 8;
     glm::dvec2 low(1e30), high(-1e30);
     double reach = kRim_m;
@@ -78,18 +91,21 @@ MaskArea area_of(const std::vector<LandShapes>& shapes, const scene::TerrainSpec
     low = glm::max(low - reach, -0.5 * terrain);
     high = glm::min(high + reach, 0.5 * terrain);
     if (!(low.x < high.x && low.y < high.y))
-        throw base::input_error(base::ExitCode::kBadInput, spec.features.front().file, 0, "place", "nothing on the terrain", "areas or lines that lie on it");
+        throw base::input_error(base::ExitCode::kBadInput, spec.features.front().file, 0, "place",
+                                "nothing on the terrain", "areas or lines that lie on it");
     return {low, high, false};
 }
 
-Grid choose_grid(const Channel* channel, const std::vector<LandShapes>& shapes, const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
+Grid choose_grid(const Channel* channel, const std::vector<LandShapes>& shapes,
+                 const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
     Grid grid;
     const glm::dvec2 whole = ground.extent_m();
     grid.area = {-0.5 * whole, 0.5 * whole, true};
     if (channel && channel->placement) {
         grid.area = mask_area(*channel, ground, spec.mask);
         const double pixel = finest_pixel_m(*channel, grid.area);
-        grid.pixel_m = std::isfinite(pixel) ? pixel : std::min(ground.spacing_m.x, ground.spacing_m.y);
+        grid.pixel_m =
+            std::isfinite(pixel) ? pixel : std::min(ground.spacing_m.x, ground.spacing_m.y);
     } else if (channel) {
         grid.pixel_m = std::min(whole.x / channel->width, whole.y / channel->height);
     } else {
@@ -97,8 +113,12 @@ Grid choose_grid(const Channel* channel, const std::vector<LandShapes>& shapes, 
     }
     const glm::dvec2 extent = grid.area.high - grid.area.low;
     const double most = spec.classes_mb * 1024 * 1024 / kTexelBytes;
-    const double wanted = spec.features.empty() ? std::min(grid.pixel_m, std::max(grid.pixel_m / kPerPixel, kFinest_m)) : std::min(grid.pixel_m, kFinest_m);
-    const double texel = std::max({wanted, std::sqrt(extent.x * extent.y / most), std::max(extent.x, extent.y) / (kMostSide - 1)});
+    const double wanted =
+        spec.features.empty()
+            ? std::min(grid.pixel_m, std::max(grid.pixel_m / kPerPixel, kFinest_m))
+            : std::min(grid.pixel_m, kFinest_m);
+    const double texel = std::max({wanted, std::sqrt(extent.x * extent.y / most),
+                                   std::max(extent.x, extent.y) / (kMostSide - 1)});
     grid.size = glm::max(glm::ivec2(glm::ceil(extent / texel - 1e-6)), glm::ivec2(1));
     grid.texel_m = extent / glm::dvec2(grid.size);
     return grid;
@@ -110,7 +130,8 @@ public:
     Classes(const Channel& channel, const scene::TerrainSpec& spec, const Grid& grid)
         : channel_(channel), spec_(spec), grid_(grid), counts_(kClasses, 0) {
         if (channel.placement)
-            posts_.emplace(*channel.placement, grid.area.low, grid.texel_m, grid.size + 1); // grid points are corners
+            posts_.emplace(*channel.placement, grid.area.low, grid.texel_m,
+                           grid.size + 1); // grid points are corners
         const double ratio = std::max(grid.texel_m.x, grid.texel_m.y) / grid.pixel_m;
         fine_ = ratio < 1.5;
         samples_ = std::clamp(static_cast<int>(std::ceil(2 * ratio)), kSamples, kMostSamples);
@@ -123,10 +144,13 @@ public:
             add(mix, middle, 1);
             return mix;
         }
-        const glm::dvec2 aside = fine_ ? wander(grid_.area.low + (glm::dvec2(i, j) + 0.5) * grid_.texel_m) : glm::dvec2(0);
+        const glm::dvec2 aside =
+            fine_ ? wander(grid_.area.low + (glm::dvec2(i, j) + 0.5) * grid_.texel_m)
+                  : glm::dvec2(0);
         const double step = 1.0 / samples_;
         for (int n = 0; n < samples_ * samples_; ++n)
-            add(mix, post(i + (n % samples_ + 0.5) * step, j + (n / samples_ + 0.5) * step) + aside, step * step);
+            add(mix, post(i + (n % samples_ + 0.5) * step, j + (n / samples_ + 0.5) * step) + aside,
+                step * step);
         return mix;
     }
 
@@ -136,7 +160,9 @@ public:
         std::map<int, double> shares;
         double known = 0;
         for (int value = 0; value < kClasses; ++value)
-            if (const double share = counts_[static_cast<std::size_t>(value)] * texel_m2 / terrain_m2; share > 0)
+            if (const double share =
+                    counts_[static_cast<std::size_t>(value)] * texel_m2 / terrain_m2;
+                share > 0)
                 shares[value] = share, known += share;
         if (1 - known > 1e-6)
             shares[-1] = 1 - known;
@@ -147,12 +173,17 @@ private:
     glm::dvec2 post(double i, double j) const {
         if (posts_)
             return posts_->at(i, j);
-        return glm::dvec2(i, j) / glm::dvec2(grid_.size) * glm::dvec2(channel_.width, channel_.height) - 0.5;
+        return glm::dvec2(i, j) / glm::dvec2(grid_.size) *
+                   glm::dvec2(channel_.width, channel_.height) -
+               0.5;
     }
 
     float value(glm::ivec2 pixel) const {
-        pixel = glm::clamp(pixel, glm::ivec2(0), glm::ivec2(channel_.width - 1, channel_.height - 1));
-        return channel_.values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(channel_.width) + static_cast<std::size_t>(pixel.x)];
+        pixel =
+            glm::clamp(pixel, glm::ivec2(0), glm::ivec2(channel_.width - 1, channel_.height - 1));
+        return channel_
+            .values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(channel_.width) +
+                    static_cast<std::size_t>(pixel.x)];
     }
 
     /// Are the pixel at a post and its eight neighbours alike?
@@ -168,7 +199,8 @@ private:
     }
 
     void add(Mix& mix, glm::dvec2 post, double share) {
-        const bool within = post.x >= -0.5 && post.y >= -0.5 && post.x <= channel_.width - 0.5 && post.y <= channel_.height - 0.5; // NaN: no
+        const bool within = post.x >= -0.5 && post.y >= -0.5 && post.x <= channel_.width - 0.5 &&
+                            post.y <= channel_.height - 0.5; // NaN: no
         if (!within && channel_.placement) {
             mix.add(spec_.outside.value_or(LandClass{}), share);
             return;
@@ -187,9 +219,11 @@ private:
     glm::dvec2 wander(glm::dvec2 place) const {
         glm::dvec2 sum(0);
         double weight = kWander;
-        for (double wave = 4 * grid_.pixel_m; wave >= 2 * grid_.texel_m.x; wave *= 0.5, weight *= 0.6) {
+        for (double wave = 4 * grid_.pixel_m; wave >= 2 * grid_.texel_m.x;
+             wave *= 0.5, weight *= 0.6) {
             const glm::vec2 at(place / wave);
-            sum += weight * glm::dvec2(shared::gradient_noise(at), shared::gradient_noise(at + glm::vec2(117.3f, -41.7f)));
+            sum += weight * glm::dvec2(shared::gradient_noise(at),
+                                       shared::gradient_noise(at + glm::vec2(117.3f, -41.7f)));
         }
         return glm::clamp(sum, glm::dvec2(-0.9), glm::dvec2(0.9));
     }
@@ -227,14 +261,17 @@ void note_heights(const scene::TerrainSpec& spec, scene::DensityMask& mask) {
 }
 
 /// `shapes` are given away.
-std::vector<FeatureRows> rows_of(const scene::TerrainSpec& spec, std::vector<LandShapes> shapes, const Grid& grid) {
+std::vector<FeatureRows> rows_of(const scene::TerrainSpec& spec, std::vector<LandShapes> shapes,
+                                 const Grid& grid) {
     std::vector<FeatureRows> rows;
     const double texel = std::max(grid.texel_m.x, grid.texel_m.y);
     for (std::size_t n = 0; n < shapes.size(); ++n) {
         const scene::LandFeature& feature = spec.features[n];
         if (feature.width_m > 0 && feature.width_m < texel)
-            base::log_warning(fmt::format("{}: lines of {} m on texels of {:.2f} m; drawn as wide as one (terrain.classes_mb makes them finer)",
-                                          base::printable(feature.file.native(), 1024), feature.width_m, texel));
+            base::log_warning(fmt::format("{}: lines of {} m on texels of {:.2f} m; drawn as wide "
+                                          "as one (terrain.classes_mb makes them finer)",
+                                          base::printable(feature.file.native(), 1024),
+                                          feature.width_m, texel));
         const double width = feature.width_m > 0 ? std::max(feature.width_m, texel) : 0;
         rows.emplace_back(std::move(shapes[n]), width, grid.area.low, grid.texel_m);
     }
@@ -242,7 +279,8 @@ std::vector<FeatureRows> rows_of(const scene::TerrainSpec& spec, std::vector<Lan
 }
 
 /// Rows of the mask, texel by texel.
-void fill(const Grid& grid, const scene::TerrainSpec& spec, const std::vector<FeatureRows>& features, Classes* classes, scene::DensityMask& mask) {
+void fill(const Grid& grid, const scene::TerrainSpec& spec,
+          const std::vector<FeatureRows>& features, Classes* classes, scene::DensityMask& mask) {
     const LandClass under = spec.outside.value_or(LandClass(1)); // areas and lines alone
     std::vector<Mix> row(static_cast<std::size_t>(grid.size.x));
     std::vector<float> cover(row.size());
@@ -270,7 +308,8 @@ void fill(const Grid& grid, const scene::TerrainSpec& spec, const std::vector<Fe
 
 } // namespace
 
-scene::DensityMask land_mask(const Channel* channel, const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
+scene::DensityMask land_mask(const Channel* channel, const scene::TerrainSpec& spec,
+                             const scene::Heightfield& ground) {
     std::vector<LandShapes> shapes;
     for (const scene::LandFeature& feature : spec.features)
         shapes.push_back(read_features(feature, ground));
@@ -286,7 +325,8 @@ scene::DensityMask land_mask(const Channel* channel, const scene::TerrainSpec& s
     mask.size_m = grid.area.high - grid.area.low;
     mask.bounded = channel && !grid.area.whole && !spec.outside;
     note_heights(spec, mask);
-    const auto texels = static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
+    const auto texels =
+        static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
     mask.density.reserve(texels);
     mask.land.reserve(texels * scene::kLandBytes);
     fill(grid, spec, features, classes ? &*classes : nullptr, mask);

@@ -28,10 +28,13 @@ base::Error bad(const std::filesystem::path& path, std::string_view what, std::s
 LayerImage read_exr(const std::filesystem::path& path) {
     ExrInput input(path);
     const OIIO::ImageSpec& spec = input.spec();
-    check_size(path, spec.width, spec.height, spec.nchannels, spec.pixel_bytes(true), input.file_bytes(), 1);
+    check_size(path, spec.width, spec.height, spec.nchannels, spec.pixel_bytes(true),
+               input.file_bytes(), 1);
     if (spec.depth > 1 || spec.deep)
-        throw bad(path, "kind of picture", spec.deep ? "deep samples" : "a volume", "a flat picture");
-    if (spec.tile_width > std::max(spec.width, 2048) || spec.tile_height > std::max(spec.height, 2048))
+        throw bad(path, "kind of picture", spec.deep ? "deep samples" : "a volume",
+                  "a flat picture");
+    if (spec.tile_width > std::max(spec.width, 2048) ||
+        spec.tile_height > std::max(spec.height, 2048))
         throw base::input_error(ExitCode::kOverLimit, path, 0, "tile",
                                 fmt::format("{} x {}", spec.tile_width, spec.tile_height),
                                 "no more than the picture");
@@ -42,7 +45,8 @@ LayerImage read_exr(const std::filesystem::path& path) {
     image.format = Format::kExr;
     image.names = spec.channelnames;
     image.type = spec.format == OIIO::TypeDesc::HALF ? Type::kHalf : Type::kFloat;
-    image.values.resize(std::size_t(spec.width) * std::size_t(spec.height) * std::size_t(spec.nchannels));
+    image.values.resize(std::size_t(spec.width) * std::size_t(spec.height) *
+                        std::size_t(spec.nchannels));
     input.read(0, spec.nchannels, image.values.data());
     if (input.has_more())
         throw bad(path, "pictures", "several in one file", "one");
@@ -51,13 +55,15 @@ LayerImage read_exr(const std::filesystem::path& path) {
 
 Type type_of(GDALRasterBandH band, const std::filesystem::path& path) {
     const GDALDataType type = GDALGetRasterDataType(band);
-    if (type == GDT_Byte && GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE") == nullptr && !is_signed_byte(band))
+    if (type == GDT_Byte && GDALGetMetadataItem(band, "NBITS", "IMAGE_STRUCTURE") == nullptr &&
+        !is_signed_byte(band))
         return Type::kUint8;
     if (type == GDT_UInt16)
         return Type::kUint16;
     if (type == GDT_Float32)
         return Type::kFloat;
-    throw bad(path, "type of the pixels", type == GDT_Byte && !is_signed_byte(band) ? "less than 8 bits" : type_name(band),
+    throw bad(path, "type of the pixels",
+              type == GDT_Byte && !is_signed_byte(band) ? "less than 8 bits" : type_name(band),
               "8 or 16 bits unsigned, or 32 bits floating point");
 }
 
@@ -72,8 +78,8 @@ LayerImage read_gdal(const std::filesystem::path& path, Format format) {
     image.height = GDALGetRasterYSize(dataset.get());
     image.channels = GDALGetRasterCount(dataset.get());
     image.format = format;
-    check_size(path, image.width, image.height, image.channels, sizeof(float) * std::size_t(image.channels),
-               std::filesystem::file_size(path), 1);
+    check_size(path, image.width, image.height, image.channels,
+               sizeof(float) * std::size_t(image.channels), std::filesystem::file_size(path), 1);
     const auto channels = static_cast<std::size_t>(image.channels);
     image.values.resize(std::size_t(image.width) * std::size_t(image.height) * channels);
     std::vector<float> plane;
@@ -94,10 +100,14 @@ LayerImage read_gdal(const std::filesystem::path& path, Format format) {
 
 OIIO::TypeDesc file_type(Type type) {
     switch (type) {
-    case Type::kUint8: return OIIO::TypeDesc::UINT8;
-    case Type::kUint16: return OIIO::TypeDesc::UINT16;
-    case Type::kHalf: return OIIO::TypeDesc::HALF;
-    case Type::kFloat: break;
+    case Type::kUint8:
+        return OIIO::TypeDesc::UINT8;
+    case Type::kUint16:
+        return OIIO::TypeDesc::UINT16;
+    case Type::kHalf:
+        return OIIO::TypeDesc::HALF;
+    case Type::kFloat:
+        break;
     }
     return OIIO::TypeDesc::FLOAT;
 }
@@ -105,7 +115,8 @@ OIIO::TypeDesc file_type(Type type) {
 /// Integers as the writer takes them; it would scale floats by the type's range.
 template<typename Int> std::vector<Int> whole(const std::vector<float>& values) {
     std::vector<Int> out(values.size());
-    std::ranges::transform(values, out.begin(), [](float v) { return static_cast<Int>(std::lround(v)); });
+    std::ranges::transform(values, out.begin(),
+                           [](float v) { return static_cast<Int>(std::lround(v)); });
     return out;
 }
 
@@ -121,7 +132,8 @@ int LayerImage::alpha() const {
 LayerImage read_layer_image(const std::filesystem::path& path) {
     const Format format = format_of(base::read_head(path, 16)); // refuses what is no regular file
     if (format != Format::kPng && format != Format::kTiff && format != Format::kExr)
-        throw bad(path, "format", format == Format::kJpeg ? "JPEG" : "none of them in its first bytes",
+        throw bad(path, "format",
+                  format == Format::kJpeg ? "JPEG" : "none of them in its first bytes",
                   "PNG, TIFF or EXR");
     if (std::filesystem::file_size(path) > kMostFileBytes)
         throw base::input_error(ExitCode::kOverLimit, path, 0, "file too large",
@@ -130,26 +142,32 @@ LayerImage read_layer_image(const std::filesystem::path& path) {
     if (format == Format::kPng)
         check_png_chunks(path);
     LayerImage image = format == Format::kExr ? read_exr(path) : read_gdal(path, format);
-    const auto channels = static_cast<std::size_t>(image.channels), width = static_cast<std::size_t>(image.width);
+    const auto channels = static_cast<std::size_t>(image.channels),
+               width = static_cast<std::size_t>(image.width);
     for (std::size_t i = 0; i < image.values.size(); ++i)
         if (!std::isfinite(image.values[i]))
-            throw bad(path, fmt::format("pixel at column {}, row {}", i / channels % width, i / channels / width),
+            throw bad(path,
+                      fmt::format("pixel at column {}, row {}", i / channels % width,
+                                  i / channels / width),
                       fmt::format("{}", image.values[i]), "a finite number");
     return image;
 }
 
-std::vector<std::byte> encode_layer_image(const LayerImage& image, const std::filesystem::path& name) {
-    const char* writer = image.format == Format::kPng ? "png" : image.format == Format::kTiff ? "tiff" : "openexr";
+std::vector<std::byte> encode_layer_image(const LayerImage& image,
+                                          const std::filesystem::path& name) {
+    const char* writer = image.format == Format::kPng    ? "png"
+                         : image.format == Format::kTiff ? "tiff"
+                                                         : "openexr";
     const auto output = OIIO::ImageOutput::create(writer);
     if (!output || !output->supports("ioproxy"))
-        throw base::input_error(ExitCode::kFailure, name, 0, "OpenImageIO has no writer to memory for", writer,
-                                "one");
+        throw base::input_error(ExitCode::kFailure, name, 0,
+                                "OpenImageIO has no writer to memory for", writer, "one");
     OIIO::ImageSpec spec(image.width, image.height, image.channels, file_type(image.type));
     if (!image.names.empty())
         spec.channelnames = image.names;
     spec.alpha_channel = image.alpha();
     spec.attribute("oiio:UnassociatedAlpha", 1); // values go out as they came in
-    spec.attribute("tiff:write_exif", 0);         // it cannot write them to memory
+    spec.attribute("tiff:write_exif", 0);        // it cannot write them to memory
     if (image.format == Format::kExr) {
         spec.attribute("compression", "zip");
         spec.attribute("DateTime", ""); // else no two files are the same
@@ -160,14 +178,16 @@ std::vector<std::byte> encode_layer_image(const LayerImage& image, const std::fi
     if (done && image.type == Type::kUint8)
         done = output->write_image(OIIO::TypeDesc::UINT8, whole<std::uint8_t>(image.values).data());
     else if (done && image.type == Type::kUint16)
-        done = output->write_image(OIIO::TypeDesc::UINT16, whole<std::uint16_t>(image.values).data());
+        done =
+            output->write_image(OIIO::TypeDesc::UINT16, whole<std::uint16_t>(image.values).data());
     else if (done)
         done = output->write_image(OIIO::TypeDesc::FLOAT, image.values.data());
     done = output->close() && done;
     const std::string error = output->geterror() + OIIO::geterror();
     if (!done || !error.empty() || memory.buffer().empty())
         throw base::input_error(ExitCode::kFailure, name, 0, "cannot encode",
-                                error.empty() ? "no reason given" : error, "a picture that can be encoded");
+                                error.empty() ? "no reason given" : error,
+                                "a picture that can be encoded");
     const std::span<const std::byte> bytes = std::as_bytes(std::span(memory.buffer()));
     return {bytes.begin(), bytes.end()};
 }

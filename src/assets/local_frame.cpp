@@ -31,7 +31,8 @@ base::Error bad(const fs::path& path, std::string_view what, const std::string& 
 }
 
 std::vector<glm::dvec2> outline_metres(const Raster& raster) {
-    std::vector<glm::dvec2> points = outline({0, 0}, {raster.width - 1, raster.height - 1}, kOutlinePoints);
+    std::vector<glm::dvec2> points =
+        outline({0, 0}, {raster.width - 1, raster.height - 1}, kOutlinePoints);
     raster.placement->posts_to_metres(points);
     return points;
 }
@@ -99,13 +100,15 @@ float bicubic(const Raster& raster, glm::dvec2 post) {
     return static_cast<float>(sum);
 }
 
-/// Posts along one side, and their spacing: the raster's own where there are many. Odd stays odd: then the new posts stand on
-/// the old ones near the middle, and peaks keep their height. A raster a few posts wide is spread over all that it covers.
+/// Posts along one side, and their spacing: the raster's own where there are many. Odd stays odd:
+/// then the new posts stand on the old ones near the middle, and peaks keep their height. A raster
+/// a few posts wide is spread over all that it covers.
 std::pair<int, double> divide(double extent, double spacing, int source_posts) {
     constexpr double kFew = 8;
     double posts = std::floor(extent / spacing + kRim) + 1;
     if (posts < kFew || source_posts < kFew) {
-        posts = std::clamp(std::round(extent / spacing) + 1, 2.0, double(std::max(source_posts, 2)));
+        posts =
+            std::clamp(std::round(extent / spacing) + 1, 2.0, double(std::max(source_posts, 2)));
         return {static_cast<int>(posts), extent / (posts - 1)};
     }
     posts -= std::fmod(std::abs(source_posts - posts), 2.0);
@@ -133,12 +136,14 @@ scene::Heightfield to_local_grid(const Raster& raster, const fs::path& path) {
                   base::ExitCode::kOverLimit);
     std::tie(field.width, field.spacing_m.x) = divide(2 * half.x, own.x, raster.width);
     std::tie(field.height, field.spacing_m.y) = divide(2 * half.y, own.y, raster.height);
-    check_size(path, field.width, field.height, 1, sizeof(float), std::numeric_limits<std::uint64_t>::max(), 2);
+    check_size(path, field.width, field.height, 1, sizeof(float),
+               std::numeric_limits<std::uint64_t>::max(), 2);
     if (!(field.spacing_m.x > 0 && field.spacing_m.y > 0))
         throw bad(path, "size", fmt::format("{} x {} posts", raster.width, raster.height),
                   "posts that enclose an upright rectangle");
 
-    const PostGrid posts(*raster.placement, -0.5 * field.extent_m(), field.spacing_m, {field.width, field.height});
+    const PostGrid posts(*raster.placement, -0.5 * field.extent_m(), field.spacing_m,
+                         {field.width, field.height});
     field.metres.reserve(static_cast<std::size_t>(field.width) * field.height);
     for (int j = 0; j < field.height; ++j)
         for (int i = 0; i < field.width; ++i)

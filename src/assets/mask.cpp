@@ -29,9 +29,11 @@ base::Error bad_pixel(const std::filesystem::path& path, const Channel& channel,
         fmt::format("{}", channel.values[pixel]), expected);
 }
 
-/// Values of the file to what the mask is made from: densities 0..1, or classes; NaN where there is no value.
+/// Values of the file to what the mask is made from: densities 0..1, or classes; NaN where there is
+/// no value.
 void check_values(const std::filesystem::path& path, bool by_class, Channel& channel) {
-    const float scale = by_class || channel.full_scale == 0 ? 1.0f : static_cast<float>(1 / channel.full_scale);
+    const float scale =
+        by_class || channel.full_scale == 0 ? 1.0f : static_cast<float>(1 / channel.full_scale);
     for (std::size_t i = 0; i < channel.values.size(); ++i) {
         float& pixel = channel.values[i];
         const float value = pixel * scale;
@@ -49,7 +51,8 @@ void check_values(const std::filesystem::path& path, bool by_class, Channel& cha
 }
 
 scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield* ground) {
-    const GdalScope silence; // its libraries complain on stderr, also while coordinates are transformed
+    const GdalScope
+        silence; // its libraries complain on stderr, also while coordinates are transformed
     const base::HeldWarnings held;
     ChannelRequest request;
     request.palette = spec.classes.empty() ? Palette::kColours : Palette::kIndices;
@@ -64,7 +67,8 @@ scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield
     if (channel.placement)
         return warp_mask(channel, table, *ground, spec.mask);
     if (frame && channel.turned_loose)
-        base::log_warning(base::printable(spec.mask.native(), 1024) + ": a geotransform without a CRS; spread over the whole terrain");
+        base::log_warning(base::printable(spec.mask.native(), 1024) +
+                          ": a geotransform without a CRS; spread over the whole terrain");
     return spread_mask(std::move(channel), table);
 }
 
@@ -76,7 +80,8 @@ scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Height
     return load(spec, &ground);
 }
 
-scene::DensityMask load_mask(const std::filesystem::path& path, const std::map<int, double>& classes) {
+scene::DensityMask load_mask(const std::filesystem::path& path,
+                             const std::map<int, double>& classes) {
     scene::TerrainSpec spec;
     spec.mask = path;
     spec.classes.insert(classes.begin(), classes.end());

@@ -38,7 +38,8 @@ struct Elements {
 
 class MeshReader {
 public:
-    MeshReader(const std::filesystem::path& path, const tinygltf::Model& model) : path_(path), model_(model) {}
+    MeshReader(const std::filesystem::path& path, const tinygltf::Model& model)
+        : path_(path), model_(model) {}
 
     scene::Mesh read() {
         if (model_.nodes.size() > kMostNodes)
@@ -53,10 +54,12 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(std::string_view what, const std::string& found, const std::string& expected) const {
+    [[noreturn]] void refuse(std::string_view what, const std::string& found,
+                             const std::string& expected) const {
         throw base::input_error(ExitCode::kBadInput, path_, 0, what, found, expected);
     }
-    [[noreturn]] void over_limit(std::string_view what, std::size_t found, std::size_t limit) const {
+    [[noreturn]] void over_limit(std::string_view what, std::size_t found,
+                                 std::size_t limit) const {
         throw base::input_error(ExitCode::kOverLimit, path_, 0, what, std::to_string(found),
                                 fmt::format("at most {}", limit));
     }
@@ -81,7 +84,8 @@ private:
         return roots;
     }
 
-    /// Down the tree without recursion. A node that is reached twice is in a loop or has two parents: no tree.
+    /// Down the tree without recursion. A node that is reached twice is in a loop or has two
+    /// parents: no tree.
     void walk(const std::vector<int>& roots) {
         std::vector<std::pair<int, glm::dmat4>> todo;
         for (auto root = roots.rbegin(); root != roots.rend(); ++root)
@@ -91,10 +95,12 @@ private:
             const auto [index, parent] = todo.back();
             todo.pop_back();
             if (!inside(index, model_.nodes.size()))
-                refuse("node", std::to_string(index), fmt::format("one of {}", model_.nodes.size()));
+                refuse("node", std::to_string(index),
+                       fmt::format("one of {}", model_.nodes.size()));
             const auto at = static_cast<std::size_t>(index);
             if (seen[at])
-                refuse("node", fmt::format("{} a second time", index), "a tree: one parent each, no loop");
+                refuse("node", fmt::format("{} a second time", index),
+                       "a tree: one parent each, no loop");
             seen[at] = true;
             const tinygltf::Node& node = model_.nodes[at];
             const glm::dmat4 transform = parent * transform_of(node, index);
@@ -107,11 +113,13 @@ private:
 
     glm::dmat4 transform_of(const tinygltf::Node& node, int index) const {
         const auto checked = [&](const std::vector<double>& given, std::size_t size) {
-            const bool fine = given.empty() || (given.size() == size && std::ranges::all_of(given, [](double v) {
-                                                    return std::isfinite(v) && std::abs(v) < 1e12;
-                                                }));
+            const bool fine =
+                given.empty() || (given.size() == size && std::ranges::all_of(given, [](double v) {
+                                      return std::isfinite(v) && std::abs(v) < 1e12;
+                                  }));
             if (!fine)
-                refuse("node", fmt::format("transform of node {}", index), "finite numbers, as many as glTF says");
+                refuse("node", fmt::format("transform of node {}", index),
+                       "finite numbers, as many as glTF says");
             return !given.empty();
         };
         glm::dmat4 m(1);
@@ -124,11 +132,15 @@ private:
             glm::dvec4 q(node.rotation[0], node.rotation[1], node.rotation[2], node.rotation[3]);
             const double size = glm::length(q);
             if (!(size > 1e-6))
-                refuse("node", fmt::format("rotation of node {} by nothing", index), "a unit quaternion");
+                refuse("node", fmt::format("rotation of node {} by nothing", index),
+                       "a unit quaternion");
             q /= size;
-            m[0] = {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.z * q.w), 2 * (q.x * q.z - q.y * q.w), 0};
-            m[1] = {2 * (q.x * q.y - q.z * q.w), 1 - 2 * (q.x * q.x + q.z * q.z), 2 * (q.y * q.z + q.x * q.w), 0};
-            m[2] = {2 * (q.x * q.z + q.y * q.w), 2 * (q.y * q.z - q.x * q.w), 1 - 2 * (q.x * q.x + q.y * q.y), 0};
+            m[0] = {1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.z * q.w),
+                    2 * (q.x * q.z - q.y * q.w), 0};
+            m[1] = {2 * (q.x * q.y - q.z * q.w), 1 - 2 * (q.x * q.x + q.z * q.z),
+                    2 * (q.y * q.z + q.x * q.w), 0};
+            m[2] = {2 * (q.x * q.z + q.y * q.w), 2 * (q.y * q.z - q.x * q.w),
+                    1 - 2 * (q.x * q.x + q.y * q.y), 0};
         }
         if (checked(node.scale, 3))
             for (int i = 0; i < 3; ++i)
@@ -141,8 +153,10 @@ private:
     void add_mesh(int index, const glm::dmat4& transform) {
         if (!inside(index, model_.meshes.size()))
             refuse("mesh", std::to_string(index), fmt::format("one of {}", model_.meshes.size()));
-        for (const tinygltf::Primitive& primitive : model_.meshes[static_cast<std::size_t>(index)].primitives)
-            if (primitive.mode == -1 || (primitive.mode >= TINYGLTF_MODE_TRIANGLES && primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN))
+        for (const tinygltf::Primitive& primitive :
+             model_.meshes[static_cast<std::size_t>(index)].primitives)
+            if (primitive.mode == -1 || (primitive.mode >= TINYGLTF_MODE_TRIANGLES &&
+                                         primitive.mode <= TINYGLTF_MODE_TRIANGLE_FAN))
                 add_primitive(primitive, transform); // points and lines have no surface
     }
 
@@ -154,29 +168,37 @@ private:
         if (positions->count > kMostVertices - mesh_.positions.size())
             over_limit("vertices", mesh_.positions.size() + positions->count, kMostVertices);
         for (std::size_t i = 0; i < positions->count; ++i) {
-            const glm::vec3 at(transform * glm::dvec4(finite<glm::vec3>(*positions, i, "POSITION"), 1));
-            if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <= scene::kMostCoordinate_m))
+            const glm::vec3 at(transform *
+                               glm::dvec4(finite<glm::vec3>(*positions, i, "POSITION"), 1));
+            if (!(std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)}) <=
+                  scene::kMostCoordinate_m))
                 refuse("POSITION", fmt::format("{}, {}, {}", at.x, at.y, at.z),
                        fmt::format("at most {} m from the origin", scene::kMostCoordinate_m));
             mesh_.positions.push_back(at);
         }
         add_normals(primitive, transform, positions->count);
         add_uvs(primitive, positions->count);
-        add_triangles(primitive, first, positions->count, glm::determinant(glm::dmat3(transform)) < 0);
+        add_triangles(primitive, first, positions->count,
+                      glm::determinant(glm::dmat3(transform)) < 0);
     }
 
-    void add_normals(const tinygltf::Primitive& primitive, const glm::dmat4& transform, std::size_t count) {
+    void add_normals(const tinygltf::Primitive& primitive, const glm::dmat4& transform,
+                     std::size_t count) {
         const auto normals = attribute(primitive, "NORMAL", TINYGLTF_TYPE_VEC3);
         if (normals && normals->count != count)
             refuse("NORMAL", fmt::format("{} values", normals->count), std::to_string(count));
         const glm::dmat3 linear(transform);
         // The cofactor matrix: it turns normals right even where the transform flattens or mirrors.
-        const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]), glm::cross(linear[0], linear[1]));
+        const glm::dmat3 turn(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                              glm::cross(linear[0], linear[1]));
         const double sign = glm::determinant(linear) < 0 ? -1 : 1;
         for (std::size_t i = 0; i < count; ++i) {
-            const glm::dvec3 normal = normals ? turn * glm::dvec3(finite<glm::vec3>(*normals, i, "NORMAL")) * sign : glm::dvec3(0);
+            const glm::dvec3 normal =
+                normals ? turn * glm::dvec3(finite<glm::vec3>(*normals, i, "NORMAL")) * sign
+                        : glm::dvec3(0);
             const double size = glm::length(normal);
-            mesh_.normals.emplace_back(size > 0 && std::isfinite(size) ? glm::vec3(normal / size) : glm::vec3(0));
+            mesh_.normals.emplace_back(size > 0 && std::isfinite(size) ? glm::vec3(normal / size)
+                                                                       : glm::vec3(0));
         }
     }
 
@@ -197,7 +219,8 @@ private:
         return value;
     }
 
-    void add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first, std::size_t vertices, bool mirrored) {
+    void add_triangles(const tinygltf::Primitive& primitive, std::uint32_t first,
+                       std::size_t vertices, bool mirrored) {
         std::optional<Elements> indices;
         if (primitive.indices != -1)
             indices = elements_of(primitive.indices, "indices", TINYGLTF_TYPE_SCALAR);
@@ -209,7 +232,8 @@ private:
         const auto vertex = [&](std::size_t i) {
             const std::size_t index = indices ? index_at(*indices, i) : i;
             if (index >= vertices)
-                refuse("indices", std::to_string(index), fmt::format("less than the {} vertices", vertices));
+                refuse("indices", std::to_string(index),
+                       fmt::format("less than the {} vertices", vertices));
             return first + static_cast<std::uint32_t>(index);
         };
         for (std::size_t t = 0; t < triangles; ++t) {
@@ -228,7 +252,8 @@ private:
     }
 
     [[nodiscard]] glm::dvec3 area_vector(const std::array<std::uint32_t, 3>& corners) const {
-        const glm::dvec3 a(mesh_.positions[corners[0]]), b(mesh_.positions[corners[1]]), c(mesh_.positions[corners[2]]);
+        const glm::dvec3 a(mesh_.positions[corners[0]]), b(mesh_.positions[corners[1]]),
+            c(mesh_.positions[corners[2]]);
         return glm::cross(b - a, c - a);
     }
 
@@ -243,8 +268,10 @@ private:
         }
     }
 
-    /// Floats of an attribute; nothing where the primitive has none, or (texture coordinates) none as floats.
-    std::optional<Elements> attribute(const tinygltf::Primitive& primitive, const char* name, int type) const {
+    /// Floats of an attribute; nothing where the primitive has none, or (texture coordinates) none
+    /// as floats.
+    std::optional<Elements> attribute(const tinygltf::Primitive& primitive, const char* name,
+                                      int type) const {
         const auto found = primitive.attributes.find(name);
         if (found == primitive.attributes.end())
             return std::nullopt;
@@ -258,32 +285,42 @@ private:
 
     Elements elements_of(int index, std::string_view what, int type) const {
         if (!inside(index, model_.accessors.size()))
-            refuse(what, fmt::format("accessor {}", index), fmt::format("one of {}", model_.accessors.size()));
+            refuse(what, fmt::format("accessor {}", index),
+                   fmt::format("one of {}", model_.accessors.size()));
         const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-        const int component_bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+        const int component_bytes =
+            tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
         const bool index_type = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                                 accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ||
                                 accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-        if (accessor.type != type || component_bytes < 1 || (type == TINYGLTF_TYPE_SCALAR && !index_type))
+        if (accessor.type != type || component_bytes < 1 ||
+            (type == TINYGLTF_TYPE_SCALAR && !index_type))
             refuse(what, fmt::format("accessor {} of another type", index), "what glTF says of it");
         if (accessor.sparse.isSparse || !inside(accessor.bufferView, model_.bufferViews.size()))
-            refuse(what, fmt::format("accessor {} that is sparse or has no buffer view", index), "plain data");
-        const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+            refuse(what, fmt::format("accessor {} that is sparse or has no buffer view", index),
+                   "plain data");
+        const tinygltf::BufferView& view =
+            model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
         if (!inside(view.buffer, model_.buffers.size()))
-            refuse(what, fmt::format("buffer {}", view.buffer), fmt::format("one of {}", model_.buffers.size()));
+            refuse(what, fmt::format("buffer {}", view.buffer),
+                   fmt::format("one of {}", model_.buffers.size()));
         const auto& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
         const auto bytes = static_cast<std::size_t>(component_bytes) *
-                           static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
+                           static_cast<std::size_t>(
+                               tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
         const std::size_t stride = view.byteStride == 0 ? bytes : view.byteStride;
         // Counts may be 2^32 and offsets anything: no sum of them before each is known to be small.
-        const bool fits = view.byteOffset <= data.size() && view.byteLength <= data.size() - view.byteOffset &&
-                          accessor.byteOffset <= view.byteLength && stride >= bytes && stride <= 4096 &&
-                          accessor.count <= data.size() &&
-                          (accessor.count == 0 ||
-                           (accessor.count - 1) * stride + bytes <= view.byteLength - accessor.byteOffset);
+        const bool fits = view.byteOffset <= data.size() &&
+                          view.byteLength <= data.size() - view.byteOffset &&
+                          accessor.byteOffset <= view.byteLength && stride >= bytes &&
+                          stride <= 4096 && accessor.count <= data.size() &&
+                          (accessor.count == 0 || (accessor.count - 1) * stride + bytes <=
+                                                      view.byteLength - accessor.byteOffset);
         if (!fits)
-            refuse(what, fmt::format("{} values that end beyond their buffer", accessor.count), "an end inside");
-        return {data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride, accessor.componentType};
+            refuse(what, fmt::format("{} values that end beyond their buffer", accessor.count),
+                   "an end inside");
+        return {data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride,
+                accessor.componentType};
     }
 
     /// Normals that the file left out: the mean of the triangles about a vertex, by area.

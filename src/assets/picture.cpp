@@ -56,7 +56,8 @@ void write_png(const std::filesystem::path& path, const scene::Picture& picture)
 }
 
 void write_png(const std::filesystem::path& path, const ByteImage& image) {
-    const auto pixels = std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0));
+    const auto pixels =
+        std::size_t(std::max(image.width, 0)) * std::size_t(std::max(image.height, 0));
     if (pixels == 0 || image.channels < 1 || image.channels > 4 ||
         image.values.size() != pixels * static_cast<std::size_t>(image.channels))
         throw failure(path, "picture",

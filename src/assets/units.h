@@ -6,8 +6,8 @@
 
 namespace sward::assets {
 
-/// Metres of one vertical unit, however a driver spells it ("Metre", "METERS", "ftUS", "US survey foot"); 1, and `has_unit` false,
-/// where the text names none. Nothing where it is no length.
+/// Metres of one vertical unit, however a driver spells it ("Metre", "METERS", "ftUS", "US survey
+/// foot"); 1, and `has_unit` false, where the text names none. Nothing where it is no length.
 [[nodiscard]] std::optional<double> metres_of_unit(std::string_view text, bool& has_unit);
 
 } // namespace sward::assets

@@ -30,16 +30,19 @@ private:
     ExitCode code_;
 };
 
-/// Text taken from a file or option, fit for a one-line message: control characters and invalid UTF-8 escaped,
-/// clipped to `limit` bytes.
+/// Text taken from a file or option, fit for a one-line message: control characters and invalid
+/// UTF-8 escaped, clipped to `limit` bytes.
 [[nodiscard]] std::string printable(std::string_view text, std::size_t limit = 80);
 
-/// "<file>[:line]: <what>: found <found>, expected <expected>" as an Error. `line` 0 leaves the line out.
-[[nodiscard]] Error input_error(ExitCode code, const std::filesystem::path& file, int line, std::string_view what,
-                                std::string_view found, std::string_view expected);
+/// "<file>[:line]: <what>: found <found>, expected <expected>" as an Error. `line` 0 leaves the
+/// line out.
+[[nodiscard]] Error input_error(ExitCode code, const std::filesystem::path& file, int line,
+                                std::string_view what, std::string_view found,
+                                std::string_view expected);
 
-/// The name in `known` that takes the fewest edits (insert, delete, replace, swap of two neighbours) from `name`; empty
-/// when none is within half its length. For messages about unknown keys and names.
+/// The name in `known` that takes the fewest edits (insert, delete, replace, swap of two
+/// neighbours) from `name`; empty when none is within half its length. For messages about unknown
+/// keys and names.
 [[nodiscard]] std::string nearest_name(std::string_view name, std::span<const std::string> known);
 
 } // namespace sward::base

@@ -82,8 +82,7 @@ int open_regular(const fs::path& path, std::uint64_t& size) {
                    "a regular file");
 }
 
-template<class Container>
-Container read_whole(const fs::path& path, std::uint64_t limit) {
+template<class Container> Container read_whole(const fs::path& path, std::uint64_t limit) {
     std::uint64_t told = 0;
     const Descriptor fd(open_regular(path, told));
     const auto over_limit = [&](std::uint64_t size) {
@@ -147,7 +146,7 @@ void write_whole(const fs::path& temporary, const fs::path& final_path,
         throw fail(errno);
     if (fd.close() != 0)
         throw fail(errno);
-    struct stat info{};
+    struct stat info {};
     if (::stat(temporary.c_str(), &info) != 0)
         throw fail(errno);
     if (static_cast<std::uint64_t>(info.st_size) != bytes.size())
@@ -203,7 +202,7 @@ void require_writable(const fs::path& path, PendingOutput::Kind kind) {
     if (file && !path.has_filename())
         throw io_error(path, "cannot write", "the name of a directory", wanted);
 
-    struct stat info{};
+    struct stat info {};
     if (::stat(path.c_str(), &info) == 0) {
         if (file ? !S_ISREG(info.st_mode) : !S_ISDIR(info.st_mode))
             throw io_error(path, "cannot write",

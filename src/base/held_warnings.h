@@ -6,8 +6,9 @@
 
 namespace sward::base {
 
-/// Holds this thread's warnings back while one stands: they are shown at its end, or dropped where it ends by an exception, whose
-/// one line is then all there is to say. Inner ones hand on to outer ones.
+/// Holds this thread's warnings back while one stands: they are shown at its end, or dropped where
+/// it ends by an exception, whose one line is then all there is to say. Inner ones hand on to outer
+/// ones.
 class HeldWarnings {
 public:
     HeldWarnings();

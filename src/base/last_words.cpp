@@ -18,9 +18,11 @@ namespace {
 
 const char* g_program = "";
 
-/// What the libraries take for themselves before main() and at their first use. With less some of them follow a null pointer.
+/// What the libraries take for themselves before main() and at their first use. With less some of
+/// them follow a null pointer.
 constexpr std::size_t kLeastRoom = std::size_t{128} << 20;
-constexpr const char* kNoRoom = "found too little memory or too few threads, expected room to run (ulimit -v, -u)";
+constexpr const char* kNoRoom =
+    "found too little memory or too few threads, expected room to run (ulimit -v, -u)";
 
 /// Plain writes: there may be no memory to build a line in.
 [[noreturn]] void end(ExitCode code, const char* reason) {
@@ -44,7 +46,8 @@ constexpr const char* kNoRoom = "found too little memory or too few threads, exp
 
 bool can_start_thread() {
     pthread_t thread;
-    if (::pthread_create(&thread, nullptr, [](void*) -> void* { return nullptr; }, nullptr) != 0)
+    if (::pthread_create(
+            &thread, nullptr, [](void*) -> void* { return nullptr; }, nullptr) != 0)
         return false;
     ::pthread_join(thread, nullptr);
     return true;

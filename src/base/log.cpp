@@ -84,10 +84,9 @@ std::string readable_time(double seconds) {
 std::string progress_bar(std::string_view title, double share, double elapsed_s,
                          std::size_t columns) {
     share = std::clamp(share, 0.0, 1.0);
-    const std::string time =
-        share >= 1  ? "in " + readable_time(elapsed_s)
-        : share > 0 ? readable_time(elapsed_s * (1 / share - 1)) + " left"
-                    : std::string();
+    const std::string time = share >= 1  ? "in " + readable_time(elapsed_s)
+                             : share > 0 ? readable_time(elapsed_s * (1 / share - 1)) + " left"
+                                         : std::string();
     const std::string tail = fmt::format("{:3.0f} % {}", std::floor(100 * share), time);
     // A line that wraps could not be drawn over: the bar gives way first, then the text is cut.
     const std::size_t rest = title.size() + tail.size() + 5; // blanks, brackets, the last column
@@ -119,7 +118,8 @@ void log_warning(std::string_view message) {
         write_line(LogLevel::kWarning, "warning: ", message);
 }
 
-HeldWarnings::HeldWarnings() : outer_(std::exchange(t_held, this)), exceptions_(std::uncaught_exceptions()) {}
+HeldWarnings::HeldWarnings()
+    : outer_(std::exchange(t_held, this)), exceptions_(std::uncaught_exceptions()) {}
 
 HeldWarnings::~HeldWarnings() {
     t_held = outer_;

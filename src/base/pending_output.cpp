@@ -256,7 +256,8 @@ PendingOutput::PendingOutput(fs::path final_path, Kind kind)
 PendingOutput::~PendingOutput() {
     std::error_code ignored;
     if (!committed_) {
-        unlock_pending(temporary_); // a directory is emptied through a handle, and ours may be the last
+        unlock_pending(
+            temporary_); // a directory is emptied through a handle, and ours may be the last
         fs::remove_all(temporary_, ignored);
     }
     unregister_pending(temporary_);

@@ -24,7 +24,8 @@ constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};
 std::atomic<std::int64_t> g_first_ms{0};
 std::array<int, 2> g_pipe{-1, -1};
 
-// One death of a parent with several threads is told more than once (PR_SET_PDEATHSIG): a repeat so soon is not impatience.
+// One death of a parent with several threads is told more than once (PR_SET_PDEATHSIG): a repeat so
+// soon is not impatience.
 constexpr std::int64_t kRepeat_ms = 500;
 
 std::int64_t now_ms() {
@@ -70,12 +71,12 @@ void install_signal_cleanup() {
     if (installed.exchange(true) || ::pipe2(g_pipe.data(), O_CLOEXEC) != 0)
         return;
     std::thread(wait_for_signal).detach();
-    struct sigaction action{};
+    struct sigaction action {};
     action.sa_handler = on_signal;
     action.sa_flags = SA_RESTART;
     ::sigemptyset(&action.sa_mask);
     for (const int signal : kSignals) {
-        struct sigaction old{};
+        struct sigaction old {};
         ::sigaction(signal, nullptr, &old);
         if (old.sa_handler != SIG_IGN) // nohup asked for that
             ::sigaction(signal, &action, nullptr);

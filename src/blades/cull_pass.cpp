@@ -10,8 +10,10 @@
 namespace sward::blades {
 
 CullPass::CullPass(std::vector<std::string> defines)
-    : program_("cull blades", {"blades/cull.comp"}, std::move(defines)), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
-      commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)) {}
+    : program_("cull blades", {"blades/cull.comp"}, std::move(defines)),
+      survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
+      commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)) {
+}
 
 void CullPass::upload(const TileList& list, bool keep_total) {
     items_count_ = list.items.size();
@@ -34,13 +36,17 @@ void CullPass::execute(std::size_t batch, const CullTests& tests) {
     total_.bind_storage(BIND_CULL_TOTAL);
     program_.use();
     program_.set("first_item", static_cast<int>(first));
-    program_.set("tests", (tests.frustum ? 1 << CULL_FRUSTUM : 0) | (tests.orientation ? 1 << CULL_ORIENTATION : 0) |
+    program_.set("tests", (tests.frustum ? 1 << CULL_FRUSTUM : 0) |
+                              (tests.orientation ? 1 << CULL_ORIENTATION : 0) |
                               (tests.occlusion ? 1 << CULL_OCCLUSION : 0));
     glDispatchCompute(static_cast<GLuint>(command_count_), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-std::uint64_t CullPass::bytes() const { return tiles_.bytes() + items_.bytes() + survivors_.bytes() + commands_.bytes() + total_.bytes(); }
+std::uint64_t CullPass::bytes() const {
+    return tiles_.bytes() + items_.bytes() + survivors_.bytes() + commands_.bytes() +
+           total_.bytes();
+}
 
 std::array<std::uint32_t, CULL_COUNTS> CullPass::counts() const {
     std::array<std::uint32_t, CULL_COUNTS> counts{};

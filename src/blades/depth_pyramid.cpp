@@ -12,10 +12,13 @@ namespace sward::blades {
 
 namespace {
 
-int padded_half(int pixels) { return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(1, (pixels + 1) / 2)))); }
+int padded_half(int pixels) {
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(1, (pixels + 1) / 2))));
+}
 
 void write_level(const gl::Texture& levels, int level) {
-    const int width = std::max(levels.shape().width >> level, 1), height = std::max(levels.shape().height >> level, 1);
+    const int width = std::max(levels.shape().width >> level, 1),
+              height = std::max(levels.shape().height >> level, 1);
     glBindImageTexture(0, levels.id(), level, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     glDispatchCompute(static_cast<GLuint>((width + PYRAMID_GROUP - 1) / PYRAMID_GROUP),
                       static_cast<GLuint>((height + PYRAMID_GROUP - 1) / PYRAMID_GROUP), 1);
@@ -26,7 +29,8 @@ void write_level(const gl::Texture& levels, int level) {
 
 DepthPyramid::DepthPyramid()
     : first_("depth pyramid", {"blades/depth_pyramid.comp"}, {"FIRST"}),
-      first_multisampled_("depth pyramid", {"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}),
+      first_multisampled_("depth pyramid", {"blades/depth_pyramid.comp"},
+                          {"FIRST", "MULTISAMPLED"}),
       next_("depth pyramid", {"blades/depth_pyramid.comp"}) {}
 
 void DepthPyramid::build(const gl::Texture& depth, int samples) {
@@ -35,7 +39,8 @@ void DepthPyramid::build(const gl::Texture& depth, int samples) {
         width_ = shape.width;
         height_ = shape.height;
         gl::TextureShape pyramid{padded_half(width_), padded_half(height_)};
-        pyramid.mips = std::bit_width(static_cast<unsigned>(std::max(pyramid.width, pyramid.height)));
+        pyramid.mips =
+            std::bit_width(static_cast<unsigned>(std::max(pyramid.width, pyramid.height)));
         levels_ = gl::Texture(GL_R32F, pyramid);
         levels_.set_filter(GL_NEAREST_MIPMAP_NEAREST, GL_NEAREST);
     }

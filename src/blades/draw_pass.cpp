@@ -24,12 +24,15 @@ std::vector<std::string> defines_of(bool aov, bool surface) {
 
 DrawPass::DrawPass(bool aov, bool surface)
     : program_(surface ? "surface blades" : "blades",
-               {surface ? "blades/surface_blade.vert" : "blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
+               {surface ? "blades/surface_blade.vert" : "blades/blade.vert", "blades/blade.tesc",
+                "blades/blade.tese", "blades/blade.frag"},
                defines_of(aov, surface)) {
     glCreateVertexArrays(1, &vertex_array_);
 }
 
-DrawPass::~DrawPass() { glDeleteVertexArrays(1, &vertex_array_); }
+DrawPass::~DrawPass() {
+    glDeleteVertexArrays(1, &vertex_array_);
+}
 
 void DrawPass::execute(const CullPass& culled, const PhysicsPass* living) {
     draw(culled.survivors(), culled.commands(), culled.command_count(), living);
@@ -39,7 +42,8 @@ void DrawPass::execute(const SampleCull& culled, const PhysicsPass* living) {
     draw(culled.survivors(), culled.commands(), culled.command_count(), living);
 }
 
-void DrawPass::draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count, const PhysicsPass* living) {
+void DrawPass::draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count,
+                    const PhysicsPass* living) {
     program_.use();
     glBindVertexArray(vertex_array_);
     survivors.bind_storage(BIND_SURVIVORS);

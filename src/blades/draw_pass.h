@@ -8,8 +8,9 @@
 
 namespace sward::blades {
 
-/// Draws culled blades by tessellation (J8), in their simulated pose (J4) or bent by W3, and moved to their shell pose in the band; those of a
-/// mesh (`surface`) likewise, with no band. Before: frame constants, clipmap, the blades and a culled batch are bound.
+/// Draws culled blades by tessellation (J8), in their simulated pose (J4) or bent by W3, and moved
+/// to their shell pose in the band; those of a mesh (`surface`) likewise, with no band. Before:
+/// frame constants, clipmap, the blades and a culled batch are bound.
 class DrawPass {
 public:
     explicit DrawPass(bool aov, bool surface = false);
@@ -23,7 +24,8 @@ public:
     void reload() { program_.reload(); }
 
 private:
-    void draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count, const PhysicsPass* living);
+    void draw(const gl::Buffer& survivors, const gl::Buffer& commands, int count,
+              const PhysicsPass* living);
     gl::Program program_;
     std::uint32_t vertex_array_ = 0; // no attributes: core profile wants one bound all the same
 };

@@ -15,24 +15,30 @@
 
 namespace sward::blades {
 
-/// Second order of a set's blades: inside each variant along a Morton curve over the patch, so that CULL_GROUP neighbours in it are
-/// neighbours on the ground: J3's compact clusters of equal count.
+/// Second order of a set's blades: inside each variant along a Morton curve over the patch, so that
+/// CULL_GROUP neighbours in it are neighbours on the ground: J3's compact clusters of equal count.
 struct MortonOrder {
     explicit MortonOrder(const grass::GrassSet& set);
-    std::vector<std::uint32_t> blades; ///< of the set, in the new order; variant_begin holds for it too
+    std::vector<std::uint32_t>
+        blades; ///< of the set, in the new order; variant_begin holds for it too
     std::vector<std::uint32_t> places; ///< of each blade of the set within its variant's order
-    std::vector<glm::vec4> boxes;      ///< least x, z, most x, z of the roots of each patch, variant by variant
+    std::vector<glm::vec4>
+        boxes; ///< least x, z, most x, z of the roots of each patch, variant by variant
     std::vector<std::size_t> box_begin; ///< of each variant in `boxes`
-    int patches_a_page = 0;            ///< of the largest variant
+    int patches_a_page = 0;             ///< of the largest variant
 };
 
-/// Tiles near the eye that own living blades, in slots of a bounded pool. Which ones depends on the eye's place alone.
+/// Tiles near the eye that own living blades, in slots of a bounded pool. Which ones depends on the
+/// eye's place alone.
 class Pages {
 public:
     struct Settings {
-        double radius_m = 8;                  ///< tiles nearer than this have a page; memory and time grow with its square
-        std::size_t most_bytes = 64ull << 20; ///< of all states, 16 a blade; when they are spent the farthest tiles go without
-        int eyes = 1;                         ///< that there is room for, wherever they are
+        double radius_m =
+            8; ///< tiles nearer than this have a page; memory and time grow with its square
+        std::size_t most_bytes =
+            64ull
+            << 20; ///< of all states, 16 a blade; when they are spent the farthest tiles go without
+        int eyes = 1; ///< that there is room for, wherever they are
     };
     struct Page {
         bool used = false;
@@ -43,7 +49,8 @@ public:
 
     Pages(const grass::GrassSet& set, Settings settings);
 
-    /// Pages in and out for the tiles near any of the eyes (world metres, y above the datum). A tile that keeps its page keeps its slot.
+    /// Pages in and out for the tiles near any of the eyes (world metres, y above the datum). A
+    /// tile that keeps its page keeps its slot.
     void update(const terrain::Surface& surface, std::span<const glm::dvec3> eyes);
     void update(const terrain::Surface& surface, glm::dvec3 eye) { update(surface, {&eye, 1}); }
     /// Drops all.
@@ -64,7 +71,8 @@ private:
         glm::ivec2 tile;
         double nearest;
     };
-    [[nodiscard]] std::vector<Wish> wishes(const terrain::Surface& surface, std::span<const glm::dvec3> eyes) const;
+    [[nodiscard]] std::vector<Wish> wishes(const terrain::Surface& surface,
+                                           std::span<const glm::dvec3> eyes) const;
     void open(int slot, glm::ivec2 tile, const terrain::Surface& surface);
 
     Settings settings_;

@@ -63,32 +63,42 @@ std::vector<shared::BladeRecord> in_order(const grass::GrassSet& set, const Mort
 } // namespace
 
 PhysicsPass::PhysicsPass(const grass::GrassSet& set, const Pages& pages, StepPrograms programs)
-    : patches_a_page_(pages.order().patches_a_page), patch_count_(patches_a_page_ * static_cast<int>(pages.slots().size())),
-      marked_(pages.slots().size(), false), variant_begin_(set.variant_begin), wake_("wake blades", {"blades/wake.comp"}),
-      steps_(step_programs(programs, {})),
+    : patches_a_page_(pages.order().patches_a_page),
+      patch_count_(patches_a_page_ * static_cast<int>(pages.slots().size())),
+      marked_(pages.slots().size(), false), variant_begin_(set.variant_begin),
+      wake_("wake blades", {"blades/wake.comp"}), steps_(step_programs(programs, {})),
       records_(gl::Buffer::of(std::span<const shared::BladeRecord>(in_order(set, pages.order())))),
-      places_(gl::Buffer::of(std::span<const std::uint32_t>(pages.order().places))), pages_(pages.slots().size() * sizeof(shared::BladePage)),
+      places_(gl::Buffer::of(std::span<const std::uint32_t>(pages.order().places))),
+      pages_(pages.slots().size() * sizeof(shared::BladePage)),
       states_(static_cast<std::size_t>(patch_count_) * CULL_GROUP * sizeof(glm::vec4)),
       patches_(static_cast<std::size_t>(patch_count_) * sizeof(shared::PatchState)),
-      awake_(static_cast<std::size_t>(patch_count_) * shared::kPatchLists * sizeof(shared::AwakePatch)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
+      awake_(static_cast<std::size_t>(patch_count_) * shared::kPatchLists *
+             sizeof(shared::AwakePatch)),
+      dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
     states_.clear_to_zero();
     patches_.clear_to_zero();
     make_textures();
     begin_count();
 }
 
-PhysicsPass::PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots, StepPrograms programs)
-    : patches_a_page_(1), patch_count_(static_cast<int>(slots)), marked_(slots, false), records_of_mesh_(std::move(records)),
-      wake_("wake surface blades", {"blades/wake.comp"}, {"SURFACE"}), steps_(step_programs(programs, {"SURFACE"})),
-      pages_(slots * sizeof(shared::BladePage)), states_(slots * CULL_GROUP * sizeof(glm::vec4)), patches_(slots * sizeof(shared::PatchState)),
-      awake_(slots * shared::kPatchLists * sizeof(shared::AwakePatch)), dispatch_(sizeof(Dispatch)), block_(sizeof(Block)) {
+PhysicsPass::PhysicsPass(std::vector<const gl::Buffer*> records, std::size_t slots,
+                         StepPrograms programs)
+    : patches_a_page_(1), patch_count_(static_cast<int>(slots)), marked_(slots, false),
+      records_of_mesh_(std::move(records)),
+      wake_("wake surface blades", {"blades/wake.comp"}, {"SURFACE"}),
+      steps_(step_programs(programs, {"SURFACE"})), pages_(slots * sizeof(shared::BladePage)),
+      states_(slots * CULL_GROUP * sizeof(glm::vec4)), patches_(slots * sizeof(shared::PatchState)),
+      awake_(slots * shared::kPatchLists * sizeof(shared::AwakePatch)), dispatch_(sizeof(Dispatch)),
+      block_(sizeof(Block)) {
     states_.clear_to_zero();
     patches_.clear_to_zero();
     make_textures();
     begin_count();
 }
 
-PhysicsPass::~PhysicsPass() { glDeleteTextures(static_cast<GLsizei>(record_textures_.size()), record_textures_.data()); }
+PhysicsPass::~PhysicsPass() {
+    glDeleteTextures(static_cast<GLsizei>(record_textures_.size()), record_textures_.data());
+}
 
 void PhysicsPass::make_textures() {
     const std::vector<const gl::Buffer*> own = {&records_};
@@ -112,15 +122,21 @@ void PhysicsPass::place(const Pages& pages, double side_m, glm::dvec3 anchor) {
         if (page.used) {
             const auto variant = static_cast<std::size_t>(page.variant);
             const glm::vec2 corner(glm::dvec2(page.tile) * side_m - glm::dvec2(anchor.x, anchor.z));
-            placed[slot] = {{corner.x, 0, corner.y}, static_cast<float>(side_m), static_cast<int>(variant_begin_[variant]),
-                            static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]), 0, shared::tile_lie(page.tile)};
+            placed[slot] = {{corner.x, 0, corner.y},
+                            static_cast<float>(side_m),
+                            static_cast<int>(variant_begin_[variant]),
+                            static_cast<int>(variant_begin_[variant + 1] - variant_begin_[variant]),
+                            0,
+                            shared::tile_lie(page.tile)};
         }
     }
     place(std::move(placed), pages.fresh());
 }
 
 void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const int> fresh) {
-    const auto same = [](const shared::BladePage& a, const shared::BladePage& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; };
+    const auto same = [](const shared::BladePage& a, const shared::BladePage& b) {
+        return std::memcmp(&a, &b, sizeof(a)) == 0;
+    };
     if (!std::equal(placed.begin(), placed.end(), placed_.begin(), placed_.end(), same)) {
         placed_ = std::move(placed);
         pages_.upload(placed_.data(), placed_.size() * sizeof(shared::BladePage));
@@ -132,7 +148,8 @@ void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const i
     for (std::size_t slot = 0; slot < marked_.size(); ++slot) {
         write[slot] = write[slot] || marked_[slot] != (placed_[slot].blades > 0);
     }
-    for (std::size_t first = 0, last = 0; first < write.size(); first = last + 1) { // neighbours at once: there may be many
+    for (std::size_t first = 0, last = 0; first < write.size();
+         first = last + 1) { // neighbours at once: there may be many
         for (last = first; last < write.size() && write[last]; ++last) {
         }
         if (last > first) {
@@ -143,18 +160,22 @@ void PhysicsPass::place(std::vector<shared::BladePage> placed, std::span<const i
 
 void PhysicsPass::mark(std::size_t first, std::size_t last) {
     const auto stride = static_cast<std::size_t>(patches_a_page_);
-    std::vector<shared::PatchState> states((last - first) * stride, {{0, 0}, shared::kPatchFree, 0});
+    std::vector<shared::PatchState> states((last - first) * stride,
+                                           {{0, 0}, shared::kPatchFree, 0});
     for (std::size_t slot = first; slot < last; ++slot) {
-        const auto filled = static_cast<std::size_t>((placed_[slot].blades + CULL_GROUP - 1) / CULL_GROUP);
+        const auto filled =
+            static_cast<std::size_t>((placed_[slot].blades + CULL_GROUP - 1) / CULL_GROUP);
         for (std::size_t n = 0; n < filled; ++n) {
             states[(slot - first) * stride + n].status = shared::kPatchNew;
         }
         marked_[slot] = filled > 0;
     }
-    patches_.upload(states.data(), states.size() * sizeof(shared::PatchState), first * stride * sizeof(shared::PatchState));
+    patches_.upload(states.data(), states.size() * sizeof(shared::PatchState),
+                    first * stride * sizeof(shared::PatchState));
 }
 
-void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& wind, const SphereLists& spheres) {
+void PhysicsPass::step(const shared::BladeStep& rules, const shared::WindField& wind,
+                       const SphereLists& spheres) {
     if (patch_count_ == 0) {
         return;
     }
@@ -230,7 +251,8 @@ std::vector<std::uint32_t> PhysicsPass::listed(std::uint32_t list) const {
 
 std::size_t PhysicsPass::bytes() const {
     std::size_t sum = 0;
-    for (const gl::Buffer* buffer : {&records_, &places_, &pages_, &states_, &patches_, &awake_, &dispatch_, &lists_, &spheres_, &block_}) {
+    for (const gl::Buffer* buffer : {&records_, &places_, &pages_, &states_, &patches_, &awake_,
+                                     &dispatch_, &lists_, &spheres_, &block_}) {
         sum += buffer->bytes();
     }
     return sum;

@@ -16,11 +16,14 @@ static_assert(SampleCull::kBatch % (GATHER_ITEMS * GATHER_GROUP) == 0);
 } // namespace
 
 SampleCull::SampleCull()
-    : choose_("choose blades", {"blades/choose.comp"}), gather_("gather blades", {"blades/gather.comp"}),
-      sift_("sift blades", {"blades/sift.comp"}), survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)), commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)),
+    : choose_("choose blades", {"blades/choose.comp"}),
+      gather_("gather blades", {"blades/gather.comp"}), sift_("sift blades", {"blades/sift.comp"}),
+      survivors_(kBatch * CULL_GROUP * sizeof(glm::uvec2)),
+      commands_(kBatch * sizeof(shared::DrawCommand)), total_(CULL_COUNTS * sizeof(std::uint32_t)),
       round_(sizeof(shared::SampleRound)) {}
 
-void SampleCull::upload(const TileList& list, std::span<const glm::vec2> samples, std::span<const glm::vec2> jitters, bool keep_total) {
+void SampleCull::upload(const TileList& list, std::span<const glm::vec2> samples,
+                        std::span<const glm::vec2> jitters, bool keep_total) {
     assert(samples.size() <= shared::kMostSamples && jitters.size() <= kRound);
     items_count_ = list.items.size();
     tiles_.reserve(list.tiles.size() * sizeof(shared::BladeTile));
@@ -30,8 +33,10 @@ void SampleCull::upload(const TileList& list, std::span<const glm::vec2> samples
     masks_.reserve((piecewise() ? kBatch : items_count_) * CULL_GROUP * sizeof(std::uint16_t));
     shared::SampleRound round{};
     round.counts = {static_cast<int>(jitters.size()), static_cast<int>(samples.size()), 0, 0};
-    for (std::size_t i = 0; i < jitters.size() * samples.size(); ++i) { // what moves the picture one way moves its samples over the first one the other
-        round.places[i] = glm::vec4(samples[i % samples.size()] + jitters[i / samples.size()], 0, 0);
+    for (std::size_t i = 0; i < jitters.size() * samples.size();
+         ++i) { // what moves the picture one way moves its samples over the first one the other
+        round.places[i] =
+            glm::vec4(samples[i % samples.size()] + jitters[i / samples.size()], 0, 0);
     }
     round_.upload(&round, sizeof(round));
     if (!keep_total) {

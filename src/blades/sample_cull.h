@@ -18,10 +18,11 @@
 
 namespace sward::blades {
 
-/// Culls blades of the reference's jittered pictures by their samples: a blade that none of a picture's samples can fall on is not drawn in
-/// it. The test is made once for all pictures of a round, and keeps all that is seen: the pictures are the same, bit by bit. Far off, blades
-/// are a hundredth of a pixel wide, and of a hundred one has to be drawn; of those nearly all stand behind others (sift()). 2 bytes a blade in
-/// reach, 256 MiB at most, and 2 MiB.
+/// Culls blades of the reference's jittered pictures by their samples: a blade that none of a
+/// picture's samples can fall on is not drawn in it. The test is made once for all pictures of a
+/// round, and keeps all that is seen: the pictures are the same, bit by bit. Far off, blades are a
+/// hundredth of a pixel wide, and of a hundred one has to be drawn; of those nearly all stand
+/// behind others (sift()). 2 bytes a blade in reach, 256 MiB at most, and 2 MiB.
 class SampleCull {
 public:
     /// Chunks gathered and drawn at once.
@@ -31,19 +32,22 @@ public:
     static constexpr int kRound = shared::kRoundPictures;
 
     SampleCull();
-    /// The blades of a round of pictures. `samples`: places of a pixel's samples, kMostSamples at most; `jitters`: what each picture of the round moves
-    /// by against the first one, in pixels; kRound at most. `keep_total`: a later round of the same frame.
-    void upload(const TileList& list, std::span<const glm::vec2> samples, std::span<const glm::vec2> jitters, bool keep_total);
-    /// Before, also of gather(): frame constants of the round's first picture, clipmap, wind and the blades are bound. `living`: null where no
-    /// blade lives.
+    /// The blades of a round of pictures. `samples`: places of a pixel's samples, kMostSamples at
+    /// most; `jitters`: what each picture of the round moves by against the first one, in pixels;
+    /// kRound at most. `keep_total`: a later round of the same frame.
+    void upload(const TileList& list, std::span<const glm::vec2> samples,
+                std::span<const glm::vec2> jitters, bool keep_total);
+    /// Before, also of gather(): frame constants of the round's first picture, clipmap, wind and
+    /// the blades are bound. `living`: null where no blade lives.
     void choose(const PhysicsPass* living);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
     /// True where choose() keeps nothing and gather() works with the bound picture's own constants.
     [[nodiscard]] bool piecewise() const { return items_count_ > kMostKept; }
     /// Then the batch's survivors and draw commands of the round's `picture` are ready.
     void gather(std::size_t batch, int picture, const PhysicsPass* living);
-    /// Takes from the batch what a picture so far, whose depth it is, hides. Before, beside gather() and what it wants: the picture's own constants are
-    /// bound. Batches come from near to far.
+    /// Takes from the batch what a picture so far, whose depth it is, hides. Before, beside
+    /// gather() and what it wants: the picture's own constants are bound. Batches come from near to
+    /// far.
     void sift(const gl::Texture& depth, const PhysicsPass* living);
     /// By CULL_*, of all pictures since the count began. Waits for the GPU.
     [[nodiscard]] std::array<std::uint32_t, CULL_COUNTS> counts() const;

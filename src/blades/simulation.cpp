@@ -8,12 +8,16 @@
 namespace sward::blades {
 
 LivingBlades::LivingBlades(Settings settings, double canopy_m, double response)
-    : settings_(settings), rules_(shared::plain_blade_step(static_cast<float>(settings.step_s), static_cast<float>(canopy_m), static_cast<float>(response))) {}
+    : settings_(settings),
+      rules_(shared::plain_blade_step(static_cast<float>(settings.step_s),
+                                      static_cast<float>(canopy_m), static_cast<float>(response))) {
+}
 
 void LivingBlades::restart(double time_s, bool run_up) {
     clear();
     lives_from_ = static_cast<std::int64_t>(std::floor(time_s / settings_.step_s + 1e-6)) + 1;
-    const auto back = run_up ? static_cast<std::int64_t>(std::ceil(kRunUp_s / settings_.step_s)) : 0;
+    const auto back =
+        run_up ? static_cast<std::int64_t>(std::ceil(kRunUp_s / settings_.step_s)) : 0;
     done_ = std::max<std::int64_t>(lives_from_ - 1 - back, 0);
 }
 
@@ -26,7 +30,8 @@ void LivingBlades::blow(double time_s, const Inputs& inputs) const {
     inputs.wind.bind();
 }
 
-void LivingBlades::step(double time_s, std::span<const MovingSphere> spheres, const shared::BladeStep& rules, const Inputs& inputs) {
+void LivingBlades::step(double time_s, std::span<const MovingSphere> spheres,
+                        const shared::BladeStep& rules, const Inputs& inputs) {
     std::optional<gl::PassScope> scope;
     if (inputs.timers) {
         scope.emplace(*inputs.timers, "physics"); // the broad phase is a part of it
@@ -71,7 +76,8 @@ void LivingBlades::advance(double time_s, const Inputs& inputs) {
 }
 
 Simulation::Simulation(const grass::GrassSet& set, double response, Settings settings)
-    : LivingBlades(settings, set.canopy_m, response), side_m_(set.side_m), variant_begin_(set.variant_begin), pages_(set, settings.pages),
+    : LivingBlades(settings, set.canopy_m, response), side_m_(set.side_m),
+      variant_begin_(set.variant_begin), pages_(set, settings.pages),
       pass_(set, pages_, settings.programs) {
     for (const shared::BladeRecord& blade : set.blades) {
         blade_reach_m_ = std::max<double>(blade_reach_m_, blade.shape.y);

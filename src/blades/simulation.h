@@ -13,17 +13,20 @@
 
 namespace sward::blades {
 
-/// Living blades through time, wherever they stand. Steps are counted from time 0, so that pictures may come at any rate; between
-/// pictures the wind goes along step by step. What is drawn is the last whole step.
+/// Living blades through time, wherever they stand. Steps are counted from time 0, so that pictures
+/// may come at any rate; between pictures the wind goes along step by step. What is drawn is the
+/// last whole step.
 class LivingBlades {
 public:
     static constexpr double kStep_s = 1.0 / 60;
-    /// Longer than any trail stays: a start or a leap with colliders begins so long before, and only what they touch lives through it.
+    /// Longer than any trail stays: a start or a leap with colliders begins so long before, and
+    /// only what they touch lives through it.
     static constexpr double kRunUp_s = 14;
 
     struct Settings {
         Pages::Settings pages;
-        double step_s = kStep_s; ///< of the physics; cost falls as it grows, past 1/20 s stiff blades overshoot
+        double step_s =
+            kStep_s; ///< of the physics; cost falls as it grows, past 1/20 s stiff blades overshoot
         StepPrograms programs = StepPrograms::kThree;
     };
     virtual ~LivingBlades() = default;
@@ -34,10 +37,11 @@ public:
         wind::Wind& wind;
         const terrain::Surface& surface;
         const Colliders& colliders;
-        glm::dvec3 eye{0};       ///< world metres, y above the datum; the wind's window stands around it
-        glm::dvec3 anchor{0};    ///< of the bound frame constants (world metres)
-        int most_steps = 0;      ///< in this call, 0: any number; those before the last ones are then left out
-        int most_wind_steps = 0; ///< Wind::advance
+        glm::dvec3 eye{0}; ///< world metres, y above the datum; the wind's window stands around it
+        glm::dvec3 anchor{0}; ///< of the bound frame constants (world metres)
+        int most_steps =
+            0; ///< in this call, 0: any number; those before the last ones are then left out
+        int most_wind_steps = 0;          ///< Wind::advance
         gl::PassTimers* timers = nullptr; ///< if any, gets the passes "wind" and "physics"
         std::span<const glm::dvec3> other_eyes = {}; ///< blades live around them too
 
@@ -47,16 +51,22 @@ public:
             return all;
         }
     };
-    /// Pages in and out, and whole steps up to `time_s`; an earlier time begins anew. The wind then stands at `time_s`, and is bound.
-    /// Before: frame constants and clipmap are bound. Throws as Wind::advance does.
+    /// Pages in and out, and whole steps up to `time_s`; an earlier time begins anew. The wind then
+    /// stands at `time_s`, and is bound. Before: frame constants and clipmap are bound. Throws as
+    /// Wind::advance does.
     void advance(double time_s, const Inputs& inputs);
 
     [[nodiscard]] virtual PhysicsPass& pass() = 0;
     [[nodiscard]] virtual const PhysicsPass& pass() const = 0;
     [[nodiscard]] virtual std::uint64_t blades() const = 0; ///< that have a state
-    [[nodiscard]] virtual double reach_m() const = 0;       ///< every blade nearer to one of the last eyes has one
-    [[nodiscard]] std::int64_t steps() const { return done_; } ///< since time 0, those left out counted
-    [[nodiscard]] std::uint64_t sphere_pairs() const { return pairs_; } ///< of a patch and a sphere, in the last call
+    [[nodiscard]] virtual double
+    reach_m() const = 0; ///< every blade nearer to one of the last eyes has one
+    [[nodiscard]] std::int64_t steps() const {
+        return done_;
+    } ///< since time 0, those left out counted
+    [[nodiscard]] std::uint64_t sphere_pairs() const {
+        return pairs_;
+    } ///< of a patch and a sphere, in the last call
     [[nodiscard]] const Settings& settings() const { return settings_; }
 
 protected:
@@ -67,16 +77,18 @@ protected:
     /// Pages in and out, their places to the GPU.
     virtual void page(const Inputs& inputs) = 0;
     /// The broad phase.
-    [[nodiscard]] virtual SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const = 0;
+    [[nodiscard]] virtual SphereLists meet(std::span<const MovingSphere> spheres,
+                                           glm::dvec3 anchor) const = 0;
 
 private:
     void restart(double time_s, bool run_up);
     void blow(double time_s, const Inputs& inputs) const;
-    void step(double time_s, std::span<const MovingSphere> spheres, const shared::BladeStep& rules, const Inputs& inputs);
+    void step(double time_s, std::span<const MovingSphere> spheres, const shared::BladeStep& rules,
+              const Inputs& inputs);
 
     Settings settings_;
     shared::BladeStep rules_;
-    std::int64_t done_ = -1; ///< the last step's number
+    std::int64_t done_ = -1;      ///< the last step's number
     std::int64_t lives_from_ = 0; ///< the first step after a run-up
     std::uint64_t pairs_ = 0;
 };
@@ -97,7 +109,8 @@ private:
     [[nodiscard]] bool no_room() const override { return pages_.slots().empty(); }
     void clear() override { pages_.clear(); }
     void page(const Inputs& inputs) override;
-    [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const override;
+    [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres,
+                                   glm::dvec3 anchor) const override;
 
     double side_m_, blade_reach_m_ = 0;
     std::vector<std::uint32_t> variant_begin_;

@@ -68,17 +68,20 @@ SurfacePoint SurfaceArea::sample(glm::dvec3 u) const {
     }
     const auto t = static_cast<std::uint32_t>(at - cumulative_.begin());
     const double root = std::sqrt(u.y);
-    return {(1 - root) * corner(t, 0) + root * (1 - u.z) * corner(t, 1) + root * u.z * corner(t, 2), t};
+    return {(1 - root) * corner(t, 0) + root * (1 - u.z) * corner(t, 1) + root * u.z * corner(t, 2),
+            t};
 }
 
 glm::dvec3 SurfaceArea::normal(const SurfacePoint& at) const {
-    const glm::dvec3 a = corner(at.triangle, 0), b = corner(at.triangle, 1), c = corner(at.triangle, 2);
+    const glm::dvec3 a = corner(at.triangle, 0), b = corner(at.triangle, 1),
+                     c = corner(at.triangle, 2);
     const glm::dvec3 face = glm::cross(b - a, c - a);
     const double whole = glm::dot(face, face);
     const double v = glm::dot(glm::cross(at.place - a, c - a), face) / whole;
     const double w = glm::dot(glm::cross(b - a, at.place - a), face) / whole;
     const auto& corners = mesh_.triangles[at.triangle];
-    const glm::dvec3 mixed = (1 - v - w) * glm::dvec3(mesh_.normals[corners[0]]) + v * glm::dvec3(mesh_.normals[corners[1]]) +
+    const glm::dvec3 mixed = (1 - v - w) * glm::dvec3(mesh_.normals[corners[0]]) +
+                             v * glm::dvec3(mesh_.normals[corners[1]]) +
                              w * glm::dvec3(mesh_.normals[corners[2]]);
     const double size = glm::length(mixed);
     const glm::dvec3 own = face / std::sqrt(whole);
@@ -98,12 +101,16 @@ void SurfaceArea::link_neighbours() {
         }
     }
     std::sort(edges.begin(), edges.end(), [](const Edge& e, const Edge& f) {
-        return e.a != f.a ? e.a < f.a : e.b != f.b ? e.b < f.b : e.triangle != f.triangle ? e.triangle < f.triangle : e.k < f.k;
+        return e.a != f.a                 ? e.a < f.a
+               : e.b != f.b               ? e.b < f.b
+               : e.triangle != f.triangle ? e.triangle < f.triangle
+                                          : e.k < f.k;
     });
     across_.assign(mesh_.triangles.size(), {kNone, kNone, kNone});
     for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
         const Edge &e = edges[i], &f = edges[i + 1];
-        if (e.a == f.a && e.b == f.b && e.triangle != f.triangle) { // of three or more at an edge, each knows the one beside it
+        if (e.a == f.a && e.b == f.b &&
+            e.triangle != f.triangle) { // of three or more at an edge, each knows the one beside it
             across_[e.triangle][static_cast<std::size_t>(e.k)] = f.triangle;
             if (across_[f.triangle][static_cast<std::size_t>(f.k)] == kNone) {
                 across_[f.triangle][static_cast<std::size_t>(f.k)] = e.triangle;
@@ -122,7 +129,8 @@ SurfacePoint SurfaceArea::walk(SurfacePoint from, glm::dvec3 way, double by) con
             return from;
         }
         way /= size;
-        // The edge that the walk leaves by: the nearest that it nears, but for the one it came through.
+        // The edge that the walk leaves by: the nearest that it nears, but for the one it came
+        // through.
         double least = std::numeric_limits<double>::infinity();
         int edge = -1;
         for (int k = 0; k < 3; ++k) {
@@ -149,7 +157,8 @@ SurfacePoint SurfaceArea::walk(SurfacePoint from, glm::dvec3 way, double by) con
         if (next == kNone) {
             return from;
         }
-        // Unfolded about the edge: what runs along it stays, what runs out of one triangle runs into the other.
+        // Unfolded about the edge: what runs along it stays, what runs out of one triangle runs
+        // into the other.
         const glm::dvec3 a = corner(from.triangle, edge);
         const glm::dvec3 along = glm::normalize(corner(from.triangle, (edge + 1) % 3) - a);
         const glm::dvec3 middle = (corner(next, 0) + corner(next, 1) + corner(next, 2)) / 3.0 - a;

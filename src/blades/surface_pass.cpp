@@ -10,8 +10,10 @@ namespace sward::blades {
 
 static_assert(BIND_BLADES == 0); // execute() binds a page there
 
-SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec, const grass::GrassSet* set)
-    : cull_({"SURFACE"}), shape_(set ? shared::kShapeOfSet : static_cast<float>(spec.shape), spec.tip_tau, spec.teeth, spec.tooth_depth),
+SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec,
+                         const grass::GrassSet* set)
+    : cull_({"SURFACE"}), shape_(set ? shared::kShapeOfSet : static_cast<float>(spec.shape),
+                                 spec.tip_tau, spec.teeth, spec.tooth_depth),
       canopy_m_(set ? set->canopy_m : static_cast<float>(spec.blade_height_m.y)),
       thin_out_m_(set ? 0 : static_cast<float>(spec.thin_out_m)), count_(grass.blades.size()) {
     for (std::size_t first = 0; first < grass.clusters.size(); first += kPageClusters) {
@@ -27,11 +29,13 @@ SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSp
     }
 }
 
-TileList SurfacePass::select(const Page& page, const terrain::Frustum& frustum, glm::vec3 origin) const {
+TileList SurfacePass::select(const Page& page, const terrain::Frustum& frustum,
+                             glm::vec3 origin) const {
     TileList list;
     const glm::vec3 eye = glm::vec3(reach_) - origin;
     for (const SurfaceCluster& cluster : page.clusters) {
-        if (glm::distance(glm::clamp(eye, cluster.low, cluster.high), eye) < reach_.w && frustum.may_see(cluster.low + origin, cluster.high + origin)) {
+        if (glm::distance(glm::clamp(eye, cluster.low, cluster.high), eye) < reach_.w &&
+            frustum.may_see(cluster.low + origin, cluster.high + origin)) {
             list.items.emplace_back(cluster.first + cluster.count, cluster.first);
             list.considered += cluster.count;
         }

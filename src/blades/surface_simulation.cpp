@@ -26,7 +26,8 @@ std::vector<int> buffers(const std::vector<SurfaceSimulation::Records>& records)
     return numbers;
 }
 
-std::vector<const gl::Buffer*> blade_buffers(const std::vector<SurfaceSimulation::Records>& records) {
+std::vector<const gl::Buffer*>
+blade_buffers(const std::vector<SurfaceSimulation::Records>& records) {
     std::vector<const gl::Buffer*> out;
     for (const auto& part : records) {
         out.push_back(part.blades);
@@ -74,12 +75,16 @@ void ClusterTree::each(const Box& box, const Found& found) const {
     }
 }
 
-SurfaceSimulation::SurfaceSimulation(const std::vector<Records>& records, double canopy_m, Settings settings)
-    : LivingBlades(settings, canopy_m, 0), clusters_(all_clusters(records)), buffer_of_(buffers(records)), tree_(clusters_),
-      slot_of_(clusters_.size(), 0),
-      cluster_of_(std::min(clusters_.size(), settings.pages.most_bytes / (CULL_GROUP * sizeof(glm::vec4))), -1),
+SurfaceSimulation::SurfaceSimulation(const std::vector<Records>& records, double canopy_m,
+                                     Settings settings)
+    : LivingBlades(settings, canopy_m, 0), clusters_(all_clusters(records)),
+      buffer_of_(buffers(records)), tree_(clusters_), slot_of_(clusters_.size(), 0),
+      cluster_of_(
+          std::min(clusters_.size(), settings.pages.most_bytes / (CULL_GROUP * sizeof(glm::vec4))),
+          -1),
       pass_(blade_buffers(records), cluster_of_.size(), settings.programs),
-      slot_buffer_(gl::Buffer::of(std::span<const std::uint32_t>(slot_of_))), radius_m_(settings.pages.radius_m) {}
+      slot_buffer_(gl::Buffer::of(std::span<const std::uint32_t>(slot_of_))),
+      radius_m_(settings.pages.radius_m) {}
 
 void SurfaceSimulation::clear() {
     std::fill(slot_of_.begin(), slot_of_.end(), 0u);
@@ -92,7 +97,8 @@ std::vector<std::size_t> SurfaceSimulation::wishes(std::span<const glm::dvec3> e
         double apart = radius_m_;
         for (const glm::dvec3& place : eyes) {
             const glm::vec3 eye(place);
-            const glm::vec3 away = glm::max(glm::max(clusters_[n].low - eye, eye - clusters_[n].high), glm::vec3(0));
+            const glm::vec3 away =
+                glm::max(glm::max(clusters_[n].low - eye, eye - clusters_[n].high), glm::vec3(0));
             apart = std::min<double>(apart, glm::length(away));
         }
         if (apart < radius_m_) {
@@ -150,24 +156,35 @@ void SurfaceSimulation::page(const Inputs& inputs) {
     for (std::size_t slot = 0; slot < placed.size(); ++slot) {
         if (cluster_of_[slot] >= 0) {
             const auto n = static_cast<std::size_t>(cluster_of_[slot]);
-            placed[slot] = {glm::vec3(-inputs.anchor), 0, static_cast<int>(clusters_[n].first), static_cast<int>(clusters_[n].count), buffer_of_[n], 0};
+            placed[slot] = {glm::vec3(-inputs.anchor),
+                            0,
+                            static_cast<int>(clusters_[n].first),
+                            static_cast<int>(clusters_[n].count),
+                            buffer_of_[n],
+                            0};
             blades_ += clusters_[n].count;
         }
     }
     pass_.place(std::move(placed), fresh);
 }
 
-SphereLists SurfaceSimulation::meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const {
-    return sphere_lists(cluster_of_.size(), spheres, anchor, [&](const MovingSphere& sphere, const Found& found) {
-        const double reach = sphere.radius_m + glm::distance(sphere.centre, sphere.before);
-        tree_.each(swept_box(sphere, 0), [&](std::uint32_t cluster) { // a cluster's box holds the reach of its blades
-            const glm::dvec3 low(clusters_[cluster].low), high(clusters_[cluster].high);
-            const bool touches = glm::distance(glm::clamp(sphere.centre, low, high), sphere.centre) <= reach; // not at its corners alone
-            if (touches && slot_of_[cluster] > 0) {
-                found(slot_of_[cluster] - 1);
-            }
+SphereLists SurfaceSimulation::meet(std::span<const MovingSphere> spheres,
+                                    glm::dvec3 anchor) const {
+    return sphere_lists(
+        cluster_of_.size(), spheres, anchor, [&](const MovingSphere& sphere, const Found& found) {
+            const double reach = sphere.radius_m + glm::distance(sphere.centre, sphere.before);
+            tree_.each(swept_box(sphere, 0),
+                       [&](std::uint32_t cluster) { // a cluster's box holds the reach of its blades
+                           const glm::dvec3 low(clusters_[cluster].low),
+                               high(clusters_[cluster].high);
+                           const bool touches =
+                               glm::distance(glm::clamp(sphere.centre, low, high), sphere.centre) <=
+                               reach; // not at its corners alone
+                           if (touches && slot_of_[cluster] > 0) {
+                               found(slot_of_[cluster] - 1);
+                           }
+                       });
         });
-    });
 }
 
 void SurfaceSimulation::bind_for_drawing() const {

@@ -10,8 +10,8 @@
 
 namespace sward::blades {
 
-/// Boxes of clusters as a tree over their order, whose neighbours are neighbours in space: node n of a level holds 2n and 2n + 1 of the
-/// level below. For the broad phase.
+/// Boxes of clusters as a tree over their order, whose neighbours are neighbours in space: node n
+/// of a level holds 2n and 2n + 1 of the level below. For the broad phase.
 class ClusterTree {
 public:
     explicit ClusterTree(const std::vector<SurfaceCluster>& clusters);
@@ -25,7 +25,8 @@ private:
     std::vector<std::vector<Bounds>> levels_; ///< the clusters first
 };
 
-/// The living blades of a mesh. The clusters nearest to the eye own a slot of a bounded pool, one each; the mesh's space is the world's.
+/// The living blades of a mesh. The clusters nearest to the eye own a slot of a bounded pool, one
+/// each; the mesh's space is the world's.
 class SurfaceSimulation final : public LivingBlades {
 public:
     /// A buffer of SurfaceBlade and its clusters, `first` within it; it outlives the simulation.
@@ -42,7 +43,9 @@ public:
     [[nodiscard]] double reach_m() const override { return reach_m_; }
     [[nodiscard]] std::size_t slots() const { return cluster_of_.size(); }
     /// Slot of a cluster, counted through all buffers; -1: none.
-    [[nodiscard]] int slot_of(std::size_t cluster) const { return static_cast<int>(slot_of_[cluster]) - 1; }
+    [[nodiscard]] int slot_of(std::size_t cluster) const {
+        return static_cast<int>(slot_of_[cluster]) - 1;
+    }
     /// What the drawing of blades reads.
     void bind_for_drawing() const;
     [[nodiscard]] std::size_t bytes() const { return pass_.bytes() + slot_buffer_.bytes(); }
@@ -51,7 +54,8 @@ private:
     [[nodiscard]] bool no_room() const override { return cluster_of_.empty(); }
     void clear() override;
     void page(const Inputs& inputs) override;
-    [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres, glm::dvec3 anchor) const override;
+    [[nodiscard]] SphereLists meet(std::span<const MovingSphere> spheres,
+                                   glm::dvec3 anchor) const override;
     [[nodiscard]] std::vector<std::size_t> wishes(std::span<const glm::dvec3> eyes);
     void give(const std::vector<std::size_t>& wanted, std::vector<int>& fresh);
 

@@ -13,12 +13,16 @@ constexpr double kSlope_m = 0.15;
 } // namespace
 
 glm::dvec3 GroundRays::normal(double x, double z) const {
-    const double east = height_(x + kSlope_m, z) - height_(x - kSlope_m, z), south = height_(x, z + kSlope_m) - height_(x, z - kSlope_m);
+    const double east = height_(x + kSlope_m, z) - height_(x - kSlope_m, z),
+                 south = height_(x, z + kSlope_m) - height_(x, z - kSlope_m);
     return glm::normalize(glm::dvec3(-east, 2 * kSlope_m, -south));
 }
 
-void* GroundRays::castRay(const btVector3& from, const btVector3& to, btVehicleRaycasterResult& result) {
-    const glm::dvec3 a = origin_ + glm::dvec3(from.x(), from.y(), from.z()), way = glm::dvec3(to.x(), to.y(), to.z()) - glm::dvec3(from.x(), from.y(), from.z());
+void* GroundRays::castRay(const btVector3& from, const btVector3& to,
+                          btVehicleRaycasterResult& result) {
+    const glm::dvec3 a = origin_ + glm::dvec3(from.x(), from.y(), from.z()),
+                     way = glm::dvec3(to.x(), to.y(), to.z()) -
+                           glm::dvec3(from.x(), from.y(), from.z());
     const auto above = [&](double share) {
         const glm::dvec3 at = a + way * share;
         return at.y - height_(at.x, at.z);
@@ -39,8 +43,11 @@ void* GroundRays::castRay(const btVector3& from, const btVector3& to, btVehicleR
     }
     const glm::dvec3 hit = a + way * low, up = normal(hit.x, hit.z), local = hit - origin_;
     result.m_distFraction = static_cast<btScalar>(low);
-    result.m_hitPointInWorld.setValue(static_cast<btScalar>(local.x), static_cast<btScalar>(local.y), static_cast<btScalar>(local.z));
-    result.m_hitNormalInWorld.setValue(static_cast<btScalar>(up.x), static_cast<btScalar>(up.y), static_cast<btScalar>(up.z));
+    result.m_hitPointInWorld.setValue(static_cast<btScalar>(local.x),
+                                      static_cast<btScalar>(local.y),
+                                      static_cast<btScalar>(local.z));
+    result.m_hitNormalInWorld.setValue(static_cast<btScalar>(up.x), static_cast<btScalar>(up.y),
+                                       static_cast<btScalar>(up.z));
     return &btTypedConstraint::getFixedBody();
 }
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <btBulletDynamicsCommon.h>
 #include <BulletDynamics/Vehicle/btRaycastVehicle.h>
+#include <btBulletDynamicsCommon.h>
 #include <glm/gtc/constants.hpp>
 
 #include "drive/ground_rays.h"
@@ -13,17 +13,19 @@
 namespace sward::drive {
 namespace {
 
-// Bullet's own frame of a vehicle is x left, y up, z ahead; ours, x right, y up, z behind, is that turned by half around y.
-constexpr double kGravity = 9.81, kAir = 1.2;       // m/s2, kg/m3
-constexpr double kFarthest_m = 128;                 // from Bullet's origin: floats are 8 micrometres fine there
-constexpr double kRollInfluence = 0.5;              // of side forces: tyres and springs give, which rays do not
-constexpr double kTurning_mps = 0.5;                 // slower, the pedal that brakes drives the other way
-constexpr double kParking_mps = 2;                   // slower, a driver who does nothing has his foot on the brake
-constexpr double kSteer_per_s = 2.5;                // of the whole lock: hands take their time
-constexpr double kSteerFade_mps = 14;                // at this speed half of the lock is left
+// Bullet's own frame of a vehicle is x left, y up, z ahead; ours, x right, y up, z behind, is that
+// turned by half around y.
+constexpr double kGravity = 9.81, kAir = 1.2; // m/s2, kg/m3
+constexpr double kFarthest_m = 128;    // from Bullet's origin: floats are 8 micrometres fine there
+constexpr double kRollInfluence = 0.5; // of side forces: tyres and springs give, which rays do not
+constexpr double kTurning_mps = 0.5;   // slower, the pedal that brakes drives the other way
+constexpr double kParking_mps = 2;    // slower, a driver who does nothing has his foot on the brake
+constexpr double kSteer_per_s = 2.5;  // of the whole lock: hands take their time
+constexpr double kSteerFade_mps = 14; // at this speed half of the lock is left
 constexpr double kRest_mps = 0.12, kRest_rads = 0.08, kRest_s = 0.4;
-constexpr double kBodySpring = 500, kBodyDamping = 12, kBodyGrip = 0.5; // of a corner on the ground, by mass
-constexpr double kSunk_m = 0.3;                     // a body's middle so deep has gone through
+constexpr double kBodySpring = 500, kBodyDamping = 12,
+                 kBodyGrip = 0.5; // of a corner on the ground, by mass
+constexpr double kSunk_m = 0.3;   // a body's middle so deep has gone through
 constexpr double kOverturned_s = 3;
 
 btVector3 to_bullet(const glm::dvec3& v) {
@@ -34,18 +36,21 @@ glm::dvec3 of_bullet(const btVector3& v) {
 }
 
 bool is_finite(const btRigidBody& body) {
-    const btVector3 sum = body.getWorldTransform().getOrigin() + body.getLinearVelocity() + body.getAngularVelocity();
+    const btVector3 sum =
+        body.getWorldTransform().getOrigin() + body.getLinearVelocity() + body.getAngularVelocity();
     return std::isfinite(sum.x() + sum.y() + sum.z());
 }
 
 } // namespace
 
 struct Vehicle::Inside {
-    Inside(const VehicleSpec& what, DriveLand where) : spec(what), land(std::move(where)), rays(land.height), box(to_bullet(what.size_m * 0.5)) {
+    Inside(const VehicleSpec& what, DriveLand where)
+        : spec(what), land(std::move(where)), rays(land.height), box(to_bullet(what.size_m * 0.5)) {
         const auto mass = static_cast<btScalar>(spec.mass_kg);
         btVector3 inertia;
         box.calculateLocalInertia(mass, inertia);
-        body = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &box, inertia));
+        body = std::make_unique<btRigidBody>(
+            btRigidBody::btRigidBodyConstructionInfo(mass, nullptr, &box, inertia));
         body->setActivationState(DISABLE_DEACTIVATION);
         world.setGravity({0, static_cast<btScalar>(-kGravity), 0});
         world.addRigidBody(body.get());
@@ -64,29 +69,39 @@ struct Vehicle::Inside {
     void add_axle(btRaycastVehicle::btVehicleTuning& tuning, std::size_t number) {
         const AxleSpec& axle = spec.axles[number];
         const double base = spec.axles[0].ahead_m - spec.axles[1].ahead_m;
-        const double share = std::abs(spec.axles[1 - number].ahead_m) / base / 2; // of the mass, on a wheel
+        const double share =
+            std::abs(spec.axles[1 - number].ahead_m) / base / 2; // of the mass, on a wheel
         const double omega = 2 * glm::pi<double>() * axle.spring_hz;
-        const double height = axle.radius_m + axle.travel_m - kGravity / (omega * omega) - spec.mass_height_m;
+        const double height =
+            axle.radius_m + axle.travel_m - kGravity / (omega * omega) - spec.mass_height_m;
         for (const double side : {1.0, -1.0}) { // left, right
-            btWheelInfo& wheel = vehicle->addWheel(to_bullet({side * axle.track_m / 2, height, axle.ahead_m}), {0, -1, 0}, {-1, 0, 0},
-                                                   static_cast<btScalar>(axle.travel_m), static_cast<btScalar>(axle.radius_m), tuning, number == 0);
+            btWheelInfo& wheel =
+                vehicle->addWheel(to_bullet({side * axle.track_m / 2, height, axle.ahead_m}),
+                                  {0, -1, 0}, {-1, 0, 0}, static_cast<btScalar>(axle.travel_m),
+                                  static_cast<btScalar>(axle.radius_m), tuning, number == 0);
             wheel.m_suspensionStiffness = static_cast<btScalar>(omega * omega * share);
-            wheel.m_wheelsDampingCompression = wheel.m_wheelsDampingRelaxation = static_cast<btScalar>(2 * axle.damping * omega * share);
+            wheel.m_wheelsDampingCompression = wheel.m_wheelsDampingRelaxation =
+                static_cast<btScalar>(2 * axle.damping * omega * share);
             wheel.m_maxSuspensionTravelCm = static_cast<btScalar>(axle.travel_m * 100);
             wheel.m_maxSuspensionForce = static_cast<btScalar>(spec.mass_kg * kGravity * 10);
             wheel.m_rollInfluence = static_cast<btScalar>(kRollInfluence);
         }
     }
 
-    [[nodiscard]] glm::dvec3 middle() const { return origin + of_bullet(body->getWorldTransform().getOrigin()); }
+    [[nodiscard]] glm::dvec3 middle() const {
+        return origin + of_bullet(body->getWorldTransform().getOrigin());
+    }
 
     void put(double x, double z, double yaw_deg) {
         origin = {std::round(x), std::round(land.height(x, z)), std::round(z)};
         rays.set_origin(origin);
-        const glm::dvec3 at = glm::dvec3(x, land.height(x, z) + spec.mass_height_m + 0.05, z) - origin;
+        const glm::dvec3 at =
+            glm::dvec3(x, land.height(x, z) + spec.mass_height_m + 0.05, z) - origin;
         btTransform place;
         place.setOrigin(to_bullet(at));
-        place.setRotation(btQuaternion(btVector3(0, 1, 0), static_cast<btScalar>(glm::pi<double>() - yaw_deg * glm::pi<double>() / 180)));
+        place.setRotation(btQuaternion(
+            btVector3(0, 1, 0),
+            static_cast<btScalar>(glm::pi<double>() - yaw_deg * glm::pi<double>() / 180)));
         body->setWorldTransform(place);
         body->setInterpolationWorldTransform(place);
         body->setLinearVelocity({0, 0, 0});
@@ -101,7 +116,8 @@ struct Vehicle::Inside {
     /// Bullet's origin goes along, by whole metres, so that nothing else moves.
     void follow_origin() {
         const btVector3 at = body->getWorldTransform().getOrigin();
-        if (std::abs(at.x()) < kFarthest_m && std::abs(at.y()) < kFarthest_m && std::abs(at.z()) < kFarthest_m)
+        if (std::abs(at.x()) < kFarthest_m && std::abs(at.y()) < kFarthest_m &&
+            std::abs(at.z()) < kFarthest_m)
             return;
         const glm::dvec3 shift = glm::round(of_bullet(at));
         origin += shift;
@@ -112,15 +128,22 @@ struct Vehicle::Inside {
         body->setInterpolationWorldTransform(place);
     }
 
-    [[nodiscard]] Surface surface_at(const glm::dvec3& at) const { return land.surface ? land.surface(at.x, at.z) : Surface::kGrass; }
+    [[nodiscard]] Surface surface_at(const glm::dvec3& at) const {
+        return land.surface ? land.surface(at.x, at.z) : Surface::kGrass;
+    }
 
     /// Engine and brakes.
     void pedal(const Pedals& pedals) {
         const double speed = now.speed_mps(), drive = std::clamp(pedals.drive, -1.0, 1.0);
         const bool against = drive * speed < 0 && std::abs(speed) > kTurning_mps;
         const double top = (drive < 0 ? spec.reverse_kmh : spec.top_kmh) / 3.6;
-        double pull = against || std::abs(speed) >= top ? 0 : drive * std::min(spec.pull_kn * 1000, spec.power_kw * 1000 / std::max(1.0, std::abs(speed)));
-        double brake = spec.brake_kn * 1000 * std::max(against ? std::abs(drive) : 0.0, std::clamp(pedals.brake, 0.0, 1.0));
+        double pull = against || std::abs(speed) >= top
+                          ? 0
+                          : drive * std::min(spec.pull_kn * 1000,
+                                             spec.power_kw * 1000 / std::max(1.0, std::abs(speed)));
+        double brake =
+            spec.brake_kn * 1000 *
+            std::max(against ? std::abs(drive) : 0.0, std::clamp(pedals.brake, 0.0, 1.0));
         if (pedals.brake > 0)
             pull = 0;
         if (pedals.idle() && std::abs(speed) < kParking_mps)
@@ -132,11 +155,16 @@ struct Vehicle::Inside {
         for (int i = 0; i < 4; ++i) {
             const AxleSpec& axle = spec.axles[static_cast<std::size_t>(i / 2)];
             // Bullet lets a wheel that goes straight pull and brake without end: tyres do not.
-            const double own = now.wheels[static_cast<std::size_t>(i)].load_n, most = grip[static_cast<std::size_t>(i)] * own;
-            const double share = load > 0 ? own / load : 0.25; // of the brakes: as much as it carries
-            vehicle->applyEngineForce(static_cast<btScalar>(axle.driven ? std::clamp(pull / driven, -most, most) : 0), i);
-            vehicle->setBrake(static_cast<btScalar>(std::min(brake * share, most) * kStep_s), i); // Bullet takes it as an impulse
-            vehicle->setSteeringValue(static_cast<btScalar>(-steer * axle.steer_deg * glm::pi<double>() / 180), i);
+            const double own = now.wheels[static_cast<std::size_t>(i)].load_n,
+                         most = grip[static_cast<std::size_t>(i)] * own;
+            const double share =
+                load > 0 ? own / load : 0.25; // of the brakes: as much as it carries
+            vehicle->applyEngineForce(
+                static_cast<btScalar>(axle.driven ? std::clamp(pull / driven, -most, most) : 0), i);
+            vehicle->setBrake(static_cast<btScalar>(std::min(brake * share, most) * kStep_s),
+                              i); // Bullet takes it as an impulse
+            vehicle->setSteeringValue(
+                static_cast<btScalar>(-steer * axle.steer_deg * glm::pi<double>() / 180), i);
         }
     }
 
@@ -151,18 +179,21 @@ struct Vehicle::Inside {
         double rolling = 0;
         for (int i = 0; i < 4; ++i) {
             btWheelInfo& wheel = vehicle->getWheelInfo(i);
-            const auto surface = static_cast<std::size_t>(surface_at(origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS)));
+            const auto surface = static_cast<std::size_t>(
+                surface_at(origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS)));
             grip[static_cast<std::size_t>(i)] = spec.grip[surface];
             wheel.m_frictionSlip = static_cast<btScalar>(spec.grip[surface]);
             if (wheel.m_raycastInfo.m_isInContact)
-                rolling += spec.rolling[surface] * static_cast<double>(wheel.m_wheelsSuspensionForce);
+                rolling +=
+                    spec.rolling[surface] * static_cast<double>(wheel.m_wheelsSuspensionForce);
         }
         const glm::dvec3 velocity = of_bullet(body->getLinearVelocity());
         const double speed = glm::length(velocity);
         if (speed < 1e-3)
             return;
         const double most = spec.mass_kg * speed / kStep_s; // that stops it within the step
-        const double force = std::min(most, rolling * std::min(1.0, speed) + 0.5 * kAir * spec.drag_m2 * speed * speed);
+        const double force = std::min(most, rolling * std::min(1.0, speed) +
+                                                0.5 * kAir * spec.drag_m2 * speed * speed);
         body->applyCentralForce(to_bullet(velocity * (-force / speed)));
     }
 
@@ -179,12 +210,21 @@ struct Vehicle::Inside {
                     const double depth = land.height(at.x, at.z) - at.y;
                     if (depth <= 0)
                         continue;
-                    const glm::dvec3 up = rays.normal(at.x, at.z), velocity = of_bullet(body->getVelocityInLocalPoint(arm));
+                    const glm::dvec3 up = rays.normal(at.x, at.z),
+                                     velocity = of_bullet(body->getVelocityInLocalPoint(arm));
                     const double away = glm::dot(velocity, up);
-                    const double push = std::max(0.0, spec.mass_kg * (kBodySpring * std::min(depth, 0.5) * up.y - kBodyDamping * away) * 0.25) * kStep_s;
+                    const double push =
+                        std::max(0.0, spec.mass_kg *
+                                          (kBodySpring * std::min(depth, 0.5) * up.y -
+                                           kBodyDamping * away) *
+                                          0.25) *
+                        kStep_s;
                     const glm::dvec3 along = velocity - up * away;
-                    const double rub = std::min(kBodyGrip * push, 0.25 * spec.mass_kg * glm::length(along));
-                    const glm::dvec3 impulse = up * push - (glm::length(along) > 1e-6 ? glm::normalize(along) * rub : glm::dvec3(0));
+                    const double rub =
+                        std::min(kBodyGrip * push, 0.25 * spec.mass_kg * glm::length(along));
+                    const glm::dvec3 impulse =
+                        up * push -
+                        (glm::length(along) > 1e-6 ? glm::normalize(along) * rub : glm::dvec3(0));
                     body->applyImpulse(to_bullet(impulse), arm);
                 }
     }
@@ -224,10 +264,12 @@ struct Vehicle::Inside {
         follow_origin();
         rescue();
         note();
-        const bool calm = pedals.drive == 0 && body->getLinearVelocity().length() < static_cast<btScalar>(kRest_mps) &&
+        const bool calm = pedals.drive == 0 &&
+                          body->getLinearVelocity().length() < static_cast<btScalar>(kRest_mps) &&
                           body->getAngularVelocity().length() < static_cast<btScalar>(kRest_rads);
         rest_s = calm ? rest_s + kStep_s : 0;
-        resting = rest_s > kRest_s; // Bullet's tyres creep sideways down a slope; a parked car does not
+        resting =
+            rest_s > kRest_s; // Bullet's tyres creep sideways down a slope; a parked car does not
         if (resting) {
             body->setLinearVelocity({0, 0, 0});
             body->setAngularVelocity({0, 0, 0});
@@ -240,19 +282,25 @@ struct Vehicle::Inside {
     void note() {
         const btTransform& place = body->getWorldTransform();
         const btQuaternion q = place.getRotation();
-        now.turn = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()) * glm::dquat(0, 0, 1, 0)); // half a turn around y
+        now.turn = glm::normalize(glm::dquat(q.w(), q.x(), q.y(), q.z()) *
+                                  glm::dquat(0, 0, 1, 0)); // half a turn around y
         now.position = middle() + now.turn * glm::dvec3(0, -spec.mass_height_m, 0);
         now.velocity_mps = of_bullet(body->getLinearVelocity());
         for (std::size_t i = 0; i < 4; ++i) {
             const btWheelInfo& wheel = vehicle->getWheelInfo(static_cast<int>(i));
             // Not by updateWheelTransform(), which forgets what the wheel touches.
             const btScalar length = wheel.m_raycastInfo.m_suspensionLength;
-            now.wheels[i].hub = origin + of_bullet(place * (wheel.m_chassisConnectionPointCS + wheel.m_wheelDirectionCS * length));
-            now.wheels[i].turn = now.turn * glm::angleAxis(static_cast<double>(wheel.m_steering), glm::dvec3(0, 1, 0)) *
-                                 glm::angleAxis(-static_cast<double>(wheel.m_rotation), glm::dvec3(1, 0, 0));
+            now.wheels[i].hub = origin + of_bullet(place * (wheel.m_chassisConnectionPointCS +
+                                                            wheel.m_wheelDirectionCS * length));
+            now.wheels[i].turn =
+                now.turn *
+                glm::angleAxis(static_cast<double>(wheel.m_steering), glm::dvec3(0, 1, 0)) *
+                glm::angleAxis(-static_cast<double>(wheel.m_rotation), glm::dvec3(1, 0, 0));
             now.wheels[i].touches = wheel.m_raycastInfo.m_isInContact;
             now.wheels[i].contact = origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS);
-            now.wheels[i].load_n = wheel.m_raycastInfo.m_isInContact ? static_cast<double>(wheel.m_wheelsSuspensionForce) : 0;
+            now.wheels[i].load_n = wheel.m_raycastInfo.m_isInContact
+                                       ? static_cast<double>(wheel.m_wheelsSuspensionForce)
+                                       : 0;
         }
     }
 
@@ -268,13 +316,14 @@ struct Vehicle::Inside {
     btBoxShape box;
     std::unique_ptr<btRigidBody> body;
     std::unique_ptr<btRaycastVehicle> vehicle;
-    VehicleState before, now; ///< of the last two steps
+    VehicleState before, now;     ///< of the last two steps
     std::array<double, 4> grip{}; ///< of the tyres, where they stand
     double steer = 0, owed_s = 0, rest_s = 0, overturned_s = 0;
     bool resting = false;
 };
 
-Vehicle::Vehicle(const VehicleSpec& spec, DriveLand land) : inside_(std::make_unique<Inside>(spec, std::move(land))) {
+Vehicle::Vehicle(const VehicleSpec& spec, DriveLand land)
+    : inside_(std::make_unique<Inside>(spec, std::move(land))) {
     put(0, 0, 0);
 }
 Vehicle::~Vehicle() = default;

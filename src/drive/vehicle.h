@@ -30,12 +30,13 @@ struct WheelState {
     bool touches = false;
     glm::dvec3 contact{0}; ///< on the ground, where it touches
     double load_n = 0;
-    glm::dvec3 hub{0};           ///< its middle
-    glm::dquat turn{1, 0, 0, 0}; ///< of its frame (axle along x) in the world: steered, and rolled on
+    glm::dvec3 hub{0}; ///< its middle
+    glm::dquat turn{1, 0, 0,
+                    0}; ///< of its frame (axle along x) in the world: steered, and rolled on
 };
 
 struct VehicleState {
-    glm::dvec3 position{0};      ///< under the centre of mass where the wheels stand on level ground
+    glm::dvec3 position{0}; ///< under the centre of mass where the wheels stand on level ground
     glm::dquat turn{1, 0, 0, 0}; ///< of the vehicle's frame (x right, y up, z behind) in the world
     glm::dvec3 velocity_mps{0};
     std::array<WheelState, 4> wheels{}; ///< front left, front right, rear left, rear right
@@ -43,8 +44,9 @@ struct VehicleState {
     [[nodiscard]] double speed_mps() const { return glm::dot(velocity_mps, ahead()); } ///< forward
 };
 
-/// A vehicle on the ground that is drawn: Bullet's raycast vehicle, a spring a wheel, at a fixed step. It is where it is whatever the pictures'
-/// rate: state() is between its last two steps. Left alone it comes to rest, and stays. Throws nothing after construction.
+/// A vehicle on the ground that is drawn: Bullet's raycast vehicle, a spring a wheel, at a fixed
+/// step. It is where it is whatever the pictures' rate: state() is between its last two steps. Left
+/// alone it comes to rest, and stays. Throws nothing after construction.
 class Vehicle {
 public:
     static constexpr double kStep_s = 1.0 / 120;

@@ -17,11 +17,11 @@ using glm::dvec3;
 using scene::add_outward;
 using scene::add_quad;
 
-constexpr double kBelt = 0.54;       // of the body's height: where windows begin
-constexpr double kArch = 1.12;       // of a wheel's radius
-constexpr int kStations = 48;        // along the body; an arch is some ten of them
+constexpr double kBelt = 0.54; // of the body's height: where windows begin
+constexpr double kArch = 1.12; // of a wheel's radius
+constexpr int kStations = 48;  // along the body; an arch is some ten of them
 constexpr int kSpokes = 24;
-constexpr double kGap_m = 0.08;      // from a high wheel to the body between the wheels
+constexpr double kGap_m = 0.08; // from a high wheel to the body between the wheels
 
 /// A bar from one end to the other, `thick` wide along x and z.
 void add_pillar(scene::Mesh& mesh, const dvec3& foot, const dvec3& head, double thick) {
@@ -37,7 +37,8 @@ void add_pillar(scene::Mesh& mesh, const dvec3& foot, const dvec3& head, double 
 double along(const std::vector<dvec2>& line, double z) {
     for (std::size_t i = 1; i < line.size(); ++i)
         if (z <= line[i].x) {
-            const double share = std::clamp((z - line[i - 1].x) / (line[i].x - line[i - 1].x), 0.0, 1.0);
+            const double share =
+                std::clamp((z - line[i - 1].x) / (line[i].x - line[i - 1].x), 0.0, 1.0);
             return line[i - 1].y + share * (line[i].y - line[i - 1].y);
         }
     return line.back().y;
@@ -58,7 +59,8 @@ double underside(const VehicleSpec& spec, double z) {
 double half_width(const VehicleSpec& spec, double z, double top) {
     double half = spec.size_m.x / 2;
     for (const AxleSpec& axle : spec.axles)
-        if (const double radius = kArch * axle.radius_m; axle.radius_m + radius > top && std::abs(z + axle.ahead_m) < radius + kGap_m)
+        if (const double radius = kArch * axle.radius_m;
+            axle.radius_m + radius > top && std::abs(z + axle.ahead_m) < radius + kGap_m)
             half = std::min(half, std::max(0.1, axle.track_m / 2 - axle.width_m / 2 - kGap_m));
     return half;
 }
@@ -71,22 +73,31 @@ double middle_of(const VehicleSpec& spec) {
 
 scene::Mesh body_mesh(const VehicleSpec& spec) {
     const double low = spec.clearance_m, h = spec.size_m.y, l = spec.size_m.z, z0 = middle_of(spec);
-    const std::vector<dvec2> top = {{-0.5, 0.36}, {-0.46, 0.44}, {-0.18, kBelt}, {0.44, kBelt}, {0.5, 0.46}};
+    const std::vector<dvec2> top = {
+        {-0.5, 0.36}, {-0.46, 0.44}, {-0.18, kBelt}, {0.44, kBelt}, {0.5, 0.46}};
     const auto upper = [&](double z) { return low + h * along(top, z / l); };
     scene::Mesh mesh;
     for (int i = 0; i < kStations; ++i) {
-        const double za = l * (static_cast<double>(i) / kStations - 0.5), zb = l * (static_cast<double>(i + 1) / kStations - 0.5);
+        const double za = l * (static_cast<double>(i) / kStations - 0.5),
+                     zb = l * (static_cast<double>(i + 1) / kStations - 0.5);
         const double ta = upper(za), tb = upper(zb);
         const double half = half_width(spec, (za + zb) / 2 + z0, std::max(ta, tb));
-        const auto under = [&](double z, double t) { return half < spec.size_m.x / 2 ? spec.clearance_m : std::min(t, underside(spec, z + z0)); };
+        const auto under = [&](double z, double t) {
+            return half < spec.size_m.x / 2 ? spec.clearance_m
+                                            : std::min(t, underside(spec, z + z0));
+        };
         const double ua = under(za, ta), ub = under(zb, tb);
-        const auto at = [&](double side, double y, double z) { return dvec3(side * half, y, z + z0); };
+        const auto at = [&](double side, double y, double z) {
+            return dvec3(side * half, y, z + z0);
+        };
         add_quad(mesh, {at(-1, ta, za), at(-1, tb, zb), at(1, tb, zb), at(1, ta, za)});
         add_quad(mesh, {at(-1, ua, za), at(1, ua, za), at(1, ub, zb), at(-1, ub, zb)});
         add_quad(mesh, {at(-1, ua, za), at(-1, ub, zb), at(-1, tb, zb), at(-1, ta, za)});
         add_quad(mesh, {at(1, ua, za), at(1, ta, za), at(1, tb, zb), at(1, ub, zb)});
         // Front and back of a station show at the ends, and where the next one is narrower.
-        const auto other = [&](int step) { return half_width(spec, (za + zb) / 2 + step * (zb - za) + z0, std::max(ta, tb)); };
+        const auto other = [&](int step) {
+            return half_width(spec, (za + zb) / 2 + step * (zb - za) + z0, std::max(ta, tb));
+        };
         if (i == 0 || other(-1) < half)
             add_quad(mesh, {at(-1, ua, za), at(-1, ta, za), at(1, ta, za), at(1, ua, za)});
         if (i == kStations - 1 || other(1) < half)
@@ -96,23 +107,32 @@ scene::Mesh body_mesh(const VehicleSpec& spec) {
 }
 
 scene::Mesh roof_mesh(const VehicleSpec& spec) {
-    const double low = spec.clearance_m, h = spec.size_m.y, l = spec.size_m.z, half = spec.size_m.x / 2, z0 = middle_of(spec);
+    const double low = spec.clearance_m, h = spec.size_m.y, l = spec.size_m.z,
+                 half = spec.size_m.x / 2, z0 = middle_of(spec);
     const double belt = low + kBelt * h, roof = low + h, thick = 0.05, bar = 0.06;
     const double front = -0.04 * l + z0, rear = 0.3 * l + z0, inner = 0.84 * half;
     const dvec3 middle(0, roof - thick / 2, (front + rear) / 2);
     scene::Mesh mesh;
     for (const double y : {roof - thick, roof})
-        add_outward(mesh, middle, {{-inner, y, front}, {-inner, y, rear}, {inner, y, rear}, {inner, y, front}});
+        add_outward(mesh, middle,
+                    {{-inner, y, front}, {-inner, y, rear}, {inner, y, rear}, {inner, y, front}});
     for (const double side : {-1.0, 1.0}) {
         const double x = side * inner;
-        add_outward(mesh, middle, {{x, roof - thick, front}, {x, roof - thick, rear}, {x, roof, rear}, {x, roof, front}});
-        const double foot = side * (half - bar / 2), head = side * (inner - bar / 2), under = roof - thick;
+        add_outward(
+            mesh, middle,
+            {{x, roof - thick, front}, {x, roof - thick, rear}, {x, roof, rear}, {x, roof, front}});
+        const double foot = side * (half - bar / 2), head = side * (inner - bar / 2),
+                     under = roof - thick;
         add_pillar(mesh, {foot, belt, -0.18 * l + z0}, {head, under, front}, bar);
         add_pillar(mesh, {foot, belt, 0.12 * l + z0}, {head, under, 0.12 * l + z0}, bar);
         add_pillar(mesh, {foot, belt, 0.42 * l + z0}, {head, under, rear}, bar);
     }
     for (const double z : {front, rear})
-        add_outward(mesh, middle, {{-inner, roof - thick, z}, {inner, roof - thick, z}, {inner, roof, z}, {-inner, roof, z}});
+        add_outward(mesh, middle,
+                    {{-inner, roof - thick, z},
+                     {inner, roof - thick, z},
+                     {inner, roof, z},
+                     {-inner, roof, z}});
     return mesh;
 }
 
@@ -124,12 +144,17 @@ scene::Mesh wheel_mesh(const AxleSpec& axle) {
         return dvec3(x, radius * std::cos(turn), radius * std::sin(turn));
     };
     for (int i = 0; i < kSpokes; ++i) {
-        add_outward(mesh, dvec3(0), {at(i, axle.radius_m, -half), at(i + 1, axle.radius_m, -half), at(i + 1, axle.radius_m, half), at(i, axle.radius_m, half)});
+        add_outward(mesh, dvec3(0),
+                    {at(i, axle.radius_m, -half), at(i + 1, axle.radius_m, -half),
+                     at(i + 1, axle.radius_m, half), at(i, axle.radius_m, half)});
         for (const double side : {-1.0, 1.0}) {
-            add_outward(mesh, dvec3(0), {at(i, rim, side * half), at(i + 1, rim, side * half), at(i + 1, axle.radius_m, side * half), at(i, axle.radius_m, side * half)});
+            add_outward(mesh, dvec3(0),
+                        {at(i, rim, side * half), at(i + 1, rim, side * half),
+                         at(i + 1, axle.radius_m, side * half), at(i, axle.radius_m, side * half)});
             // The disc lies in, and every other piece of it deeper: one sees that it turns.
             const double in = side * half * (i % 4 < 2 ? 0.7 : 0.3);
-            add_outward(mesh, dvec3(0), {{in, 0, 0}, at(i, rim, in), at(i + 1, rim, in), {in, 1e-4, 0}});
+            add_outward(mesh, dvec3(0),
+                        {{in, 0, 0}, at(i, rim, in), at(i + 1, rim, in), {in, 1e-4, 0}});
         }
     }
     return mesh;

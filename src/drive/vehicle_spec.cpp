@@ -60,12 +60,18 @@ VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
     reader.require("rear");
     spec.axles = {read_axle(*front), read_axle(*rear)};
     for (const AxleSpec& axle : spec.axles)
-        if (const double sag = kGravity / (kTurn * axle.spring_hz * kTurn * axle.spring_hz); sag > 0.8 * axle.travel_m)
-            throw reader.error("travel_m", fmt::format("springs that give {:.2f} m under the body of {:.2f} m", sag, axle.travel_m), "a fifth of the travel left, or a higher spring_hz");
+        if (const double sag = kGravity / (kTurn * axle.spring_hz * kTurn * axle.spring_hz);
+            sag > 0.8 * axle.travel_m)
+            throw reader.error("travel_m",
+                               fmt::format("springs that give {:.2f} m under the body of {:.2f} m",
+                                           sag, axle.travel_m),
+                               "a fifth of the travel left, or a higher spring_hz");
     if (!(spec.axles[0].ahead_m > 0) || !(spec.axles[1].ahead_m < 0))
-        throw reader.error("front", "axles on one side of the centre of mass", "front.ahead_m above 0, rear.ahead_m below 0");
+        throw reader.error("front", "axles on one side of the centre of mass",
+                           "front.ahead_m above 0, rear.ahead_m below 0");
     if (!spec.axles[0].driven && !spec.axles[1].driven)
-        throw reader.error("front", "no axle that is driven", "driven = true in front, rear or both");
+        throw reader.error("front", "no axle that is driven",
+                           "driven = true in front, rear or both");
     return spec;
 }
 

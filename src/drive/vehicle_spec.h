@@ -15,17 +15,18 @@ inline constexpr std::size_t kSurfaces = 3;
 
 /// An axle: two wheels alike, left and right of the middle.
 struct AxleSpec {
-    double ahead_m = 0;      ///< of the centre of mass; behind it below 0
-    double track_m = 1.5;    ///< from wheel to wheel
+    double ahead_m = 0;   ///< of the centre of mass; behind it below 0
+    double track_m = 1.5; ///< from wheel to wheel
     double radius_m = 0.32, width_m = 0.2;
-    double travel_m = 0.3;   ///< of the spring, from the wheel hanging free to the wheel home
-    double spring_hz = 1.6;  ///< of the body on its springs
-    double damping = 0.4;    ///< share of the critical one
-    double steer_deg = 0;    ///< to each side, at a standstill
+    double travel_m = 0.3;  ///< of the spring, from the wheel hanging free to the wheel home
+    double spring_hz = 1.6; ///< of the body on its springs
+    double damping = 0.4;   ///< share of the critical one
+    double steer_deg = 0;   ///< to each side, at a standstill
     bool driven = false;
 };
 
-/// A vehicle with two axles (TOML, docs/simulator.md). Right-handed as the world: x right, y up, z behind.
+/// A vehicle with two axles (TOML, docs/simulator.md). Right-handed as the world: x right, y up, z
+/// behind.
 struct VehicleSpec {
     std::string name;
     double mass_kg = 1300;
@@ -35,11 +36,12 @@ struct VehicleSpec {
     double power_kw = 90, pull_kn = 6; ///< of the engine; of its wheels at most
     double reverse_kmh = 25, top_kmh = 180;
     double brake_kn = 12;
-    double drag_m2 = 0.7;              ///< area times coefficient
+    double drag_m2 = 0.7;                                     ///< area times coefficient
     std::array<double, kSurfaces> grip{0.6, 0.35, 0.95};      ///< of the tyres, over their load
     std::array<double, kSurfaces> rolling{0.06, 0.09, 0.012}; ///< resistance, over their load
-    std::array<AxleSpec, 2> axles{};   ///< front, rear
-    glm::dvec3 eye_m{-0.35, 1.15, 0.2}; ///< the driver's, from the middle of the vehicle on the ground
+    std::array<AxleSpec, 2> axles{};                          ///< front, rear
+    glm::dvec3 eye_m{-0.35, 1.15,
+                     0.2}; ///< the driver's, from the middle of the vehicle on the ground
 };
 
 /// Reads a preset. Throws base::Error with file, line and key.

@@ -24,7 +24,9 @@ void write_floats(std::span<std::byte> packet, std::size_t offset, glm::dvec3 va
 SurfaceClass class_of(double share) {
     if (!(share >= 0)) // NaN too
         return SurfaceClass::kUnknown;
-    return share < kBareShare ? SurfaceClass::kBare : share < kSparseShare ? SurfaceClass::kSparse : SurfaceClass::kGrass;
+    return share < kBareShare     ? SurfaceClass::kBare
+           : share < kSparseShare ? SurfaceClass::kSparse
+                                  : SurfaceClass::kGrass;
 }
 
 std::array<std::byte, kReportBytes> encode_report(const GroundReport& report) {

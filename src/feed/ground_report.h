@@ -25,17 +25,17 @@ enum class SurfaceClass : std::uint32_t {
 
 /// What Sward sends back once a picture.
 struct GroundReport {
-    std::uint32_t count = 0;      ///< one more each packet; runs over
-    bool fed = false;             ///< of a net_fdm packet: the next three are its own
+    std::uint32_t count = 0; ///< one more each packet; runs over
+    bool fed = false;        ///< of a net_fdm packet: the next three are its own
     double latitude_deg = 0, longitude_deg = 0;
     std::uint32_t fdm_time = 0;
-    bool stands = false;          ///< the stream of net_fdm stands still
-    double time_s = 0;            ///< simulated
-    glm::dvec2 place{0};          ///< world x, z
-    double ground_m = 0;          ///< above the datum
-    glm::dvec3 normal{0, 1, 0};   ///< of the ground, world
+    bool stands = false;        ///< the stream of net_fdm stands still
+    double time_s = 0;          ///< simulated
+    glm::dvec2 place{0};        ///< world x, z
+    double ground_m = 0;        ///< above the datum
+    glm::dvec3 normal{0, 1, 0}; ///< of the ground, world
     SurfaceClass surface = SurfaceClass::kUnknown;
-    glm::dvec3 wind_mps{0};       ///< that the air moves with, world: east, up, south
+    glm::dvec3 wind_mps{0}; ///< that the air moves with, world: east, up, south
 };
 
 /// The packet of docs/simulator-integration.md, network byte order.

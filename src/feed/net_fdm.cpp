@@ -22,11 +22,13 @@ constexpr std::size_t kAttitude = 36, kRates = 56, kVelocity = 76;
 constexpr std::size_t kTimeFromEnd = 52;
 
 glm::dvec3 three_floats(std::span<const std::byte> packet, std::size_t offset) {
-    return {read_big_endian<float>(packet, offset), read_big_endian<float>(packet, offset + 4), read_big_endian<float>(packet, offset + 8)};
+    return {read_big_endian<float>(packet, offset), read_big_endian<float>(packet, offset + 4),
+            read_big_endian<float>(packet, offset + 8)};
 }
 
 bool finite(const FdmSample& s) {
-    for (const glm::dvec3& v : {glm::dvec3(s.latitude_deg, s.longitude_deg, s.altitude_m), s.attitude_rad, s.attitude_rates, s.velocity_mps})
+    for (const glm::dvec3& v : {glm::dvec3(s.latitude_deg, s.longitude_deg, s.altitude_m),
+                                s.attitude_rad, s.attitude_rates, s.velocity_mps})
         if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
             return false;
     return true;
@@ -41,8 +43,9 @@ bool plausible(const FdmSample& s) {
     for (const double v : {s.velocity_mps.x, s.velocity_mps.y, s.velocity_mps.z})
         if (std::abs(v) > kFastest_mps)
             return false;
-    return within(s.latitude_deg, scene::kLatitude) && within(s.longitude_deg, scene::kLongitude) && within(s.altitude_m, scene::kHeight) &&
-           std::abs(s.attitude_rad.x) <= kTurn_rad && std::abs(s.attitude_rad.y) <= kSteepest_rad && std::abs(s.attitude_rad.z) <= kTurn_rad;
+    return within(s.latitude_deg, scene::kLatitude) && within(s.longitude_deg, scene::kLongitude) &&
+           within(s.altitude_m, scene::kHeight) && std::abs(s.attitude_rad.x) <= kTurn_rad &&
+           std::abs(s.attitude_rad.y) <= kSteepest_rad && std::abs(s.attitude_rad.z) <= kTurn_rad;
 }
 
 } // namespace

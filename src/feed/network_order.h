@@ -9,11 +9,11 @@
 
 namespace sward::feed {
 
-template<class T>
-using BitsOf = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
+template<class T> using BitsOf = std::conditional_t<sizeof(T) == 8, std::uint64_t, std::uint32_t>;
 
 /// A number of 4 or 8 bytes in network byte order at `offset`; the caller has checked the size.
-template<class T> [[nodiscard]] T read_big_endian(std::span<const std::byte> bytes, std::size_t offset) {
+template<class T>
+[[nodiscard]] T read_big_endian(std::span<const std::byte> bytes, std::size_t offset) {
     static_assert(sizeof(T) == 4 || sizeof(T) == 8);
     BitsOf<T> bits = 0;
     for (std::size_t i = 0; i < sizeof(T); ++i)

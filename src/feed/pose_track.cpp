@@ -16,11 +16,12 @@ namespace sward::feed {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-constexpr std::size_t kRemembered = 2048;  // packets: half a minute at 60 a second
-constexpr double kMostSpin = 20;           // rad/s; a faster one is a sender's rounding at the pole
-constexpr double kNorthStep_deg = 1e-4;    // 11 m
-constexpr double kLeastStep_m = 0.05;      // a stride from which the way can be told from a shiver
-constexpr double kMostStridesLate = 30;    // farther back, the aircraft has been put elsewhere; likewise if the last stride is as much longer
+constexpr std::size_t kRemembered = 2048; // packets: half a minute at 60 a second
+constexpr double kMostSpin = 20;          // rad/s; a faster one is a sender's rounding at the pole
+constexpr double kNorthStep_deg = 1e-4;   // 11 m
+constexpr double kLeastStep_m = 0.05;     // a stride from which the way can be told from a shiver
+constexpr double kMostStridesLate = 30;   // farther back, the aircraft has been put elsewhere;
+                                          // likewise if the last stride is as much longer
 
 std::uint64_t digest_of(std::span<const std::byte> packet) {
     std::uint64_t digest = packet.size();
@@ -35,18 +36,24 @@ std::uint64_t digest_of(std::span<const std::byte> packet) {
 
 Packet packet_of(FdmFault fault) {
     switch (fault) {
-    case FdmFault::kVersion: return Packet::kVersion;
-    case FdmFault::kSize: return Packet::kSize;
-    case FdmFault::kNumber: return Packet::kNumber;
-    case FdmFault::kRange: return Packet::kRange;
-    case FdmFault::kNone: break;
+    case FdmFault::kVersion:
+        return Packet::kVersion;
+    case FdmFault::kSize:
+        return Packet::kSize;
+    case FdmFault::kNumber:
+        return Packet::kNumber;
+    case FdmFault::kRange:
+        return Packet::kRange;
+    case FdmFault::kNone:
+        break;
     }
     return Packet::kTaken;
 }
 
 /// From the aircraft's axes (ahead, right, down) to north, east, down.
 glm::dquat turn_of(glm::dvec3 attitude) {
-    return glm::angleAxis(attitude.z, glm::dvec3(0, 0, 1)) * glm::angleAxis(attitude.y, glm::dvec3(0, 1, 0)) *
+    return glm::angleAxis(attitude.z, glm::dvec3(0, 0, 1)) *
+           glm::angleAxis(attitude.y, glm::dvec3(0, 1, 0)) *
            glm::angleAxis(attitude.x, glm::dvec3(1, 0, 0));
 }
 
@@ -56,7 +63,8 @@ glm::dvec3 spin_of(const FdmSample& s) {
     const double sin_pitch = std::sin(s.attitude_rad.y), cos_pitch = std::cos(s.attitude_rad.y);
     const glm::dvec3 spin(s.attitude_rates.x - s.attitude_rates.z * sin_pitch,
                           s.attitude_rates.y * cos_roll + s.attitude_rates.z * sin_roll * cos_pitch,
-                          s.attitude_rates.z * cos_roll * cos_pitch - s.attitude_rates.y * sin_roll);
+                          s.attitude_rates.z * cos_roll * cos_pitch -
+                              s.attitude_rates.y * sin_roll);
     return glm::length(spin) <= kMostSpin ? spin : glm::dvec3(0); // NaN too
 }
 
@@ -66,27 +74,33 @@ glm::dvec3 spun(const FdmSample& s, double dt) {
     const double size = glm::length(angle);
     if (size < 1e-9)
         return s.attitude_rad;
-    const glm::dmat3 turn = glm::mat3_cast(turn_of(s.attitude_rad) * glm::angleAxis(size, angle / size));
-    return {std::atan2(turn[1][2], turn[2][2]), std::asin(std::clamp(-turn[0][2], -1.0, 1.0)), std::atan2(turn[0][1], turn[0][0])};
+    const glm::dmat3 turn =
+        glm::mat3_cast(turn_of(s.attitude_rad) * glm::angleAxis(size, angle / size));
+    return {std::atan2(turn[1][2], turn[2][2]), std::asin(std::clamp(-turn[0][2], -1.0, 1.0)),
+            std::atan2(turn[0][1], turn[0][0])};
 }
 
 } // namespace
 
 std::string_view name_of(Packet packet) {
     constexpr std::array<std::string_view, static_cast<std::size_t>(Packet::kCount)> kNames = {
-        "taken", "of another version", "of a wrong size", "not finite", "out of range", "of another sender", "doubled", "old"};
+        "taken",        "of another version", "of a wrong size", "not finite",
+        "out of range", "of another sender",  "doubled",         "old"};
     return kNames[static_cast<std::size_t>(packet)];
 }
 
-PoseTrack::PoseTrack(scene::PlaceOnEarth on_earth) : on_earth_(std::move(on_earth)), seen_(kRemembered, 0) {}
+PoseTrack::PoseTrack(scene::PlaceOnEarth on_earth)
+    : on_earth_(std::move(on_earth)), seen_(kRemembered, 0) {}
 
-Packet PoseTrack::take(std::span<const std::byte> packet, std::string_view sender, double arrival_s) {
+Packet PoseTrack::take(std::span<const std::byte> packet, std::string_view sender,
+                       double arrival_s) {
     const Packet verdict = judge(packet, sender, arrival_s);
     ++counts_[static_cast<std::size_t>(verdict)];
     return verdict;
 }
 
-Packet PoseTrack::judge(std::span<const std::byte> packet, std::string_view sender, double arrival_s) {
+Packet PoseTrack::judge(std::span<const std::byte> packet, std::string_view sender,
+                        double arrival_s) {
     const DecodedFdm decoded = decode_fdm(packet);
     if (decoded.fault != FdmFault::kNone)
         return packet_of(decoded.fault);
@@ -111,7 +125,8 @@ Packet PoseTrack::judge(std::span<const std::byte> packet, std::string_view send
     newest_ = fix;
     if (!running) {
         sender_ = sender;
-        std::fill(seen_.begin(), seen_.end(), 0); // a flight that begins anew may say the same again
+        std::fill(seen_.begin(), seen_.end(),
+                  0); // a flight that begins anew may say the same again
     }
     heard_s_ = arrival_s;
     held_ = false;
@@ -122,36 +137,42 @@ Packet PoseTrack::judge(std::span<const std::byte> packet, std::string_view send
 std::optional<Packet> PoseTrack::unwanted(const Fix& fix) const {
     if (std::find(seen_.begin(), seen_.end(), fix.digest) != seen_.end())
         return Packet::kOld;
-    const auto later = static_cast<std::int32_t>(fix.sample.time - newest_->sample.time); // the count may run over
+    const auto later =
+        static_cast<std::int32_t>(fix.sample.time - newest_->sample.time); // the count may run over
     if (later < 0 || (later == 0 && behind(fix)))
         return Packet::kOld;
     return std::nullopt;
 }
 
-/// Whether a packet without a time of its own is late: nothing turns back within one stride. Wrong once where something does, and put right by the
-/// silence that follows.
+/// Whether a packet without a time of its own is late: nothing turns back within one stride. Wrong
+/// once where something does, and put right by the silence that follows.
 bool PoseTrack::behind(const Fix& fix) const {
     if (!before_)
         return false;
-    const glm::dvec3 stride = newest_->position - before_->position, back = fix.position - newest_->position;
+    const glm::dvec3 stride = newest_->position - before_->position,
+                     back = fix.position - newest_->position;
     const double length = glm::length(stride);
     if (length < kLeastStep_m)
         return false;
     const double along = glm::dot(back, stride) / length;
     const double aside = glm::length(back - along * stride / length);
-    return -along > length / kMostStridesLate && -along < length * kMostStridesLate && aside < kLeastStep_m - 0.25 * along;
+    return -along > length / kMostStridesLate && -along < length * kMostStridesLate &&
+           aside < kLeastStep_m - 0.25 * along;
 }
 
-/// The packet's place in the world, and where north is there: the further from the terrain's middle, the more the frame's own leans away.
+/// The packet's place in the world, and where north is there: the further from the terrain's
+/// middle, the more the frame's own leans away.
 bool PoseTrack::settle(Fix& fix) const {
     if (!on_earth_)
         return false;
     const FdmSample& s = fix.sample;
     try {
         const glm::dvec2 place = on_earth_(s.latitude_deg, s.longitude_deg);
-        const double step = s.latitude_deg > 0 ? -kNorthStep_deg : kNorthStep_deg; // not past a pole
+        const double step =
+            s.latitude_deg > 0 ? -kNorthStep_deg : kNorthStep_deg; // not past a pole
         const glm::dvec2 north = (on_earth_(s.latitude_deg + step, s.longitude_deg) - place) / step;
-        if (!(std::abs(place.x) <= scene::kPlace.high && std::abs(place.y) <= scene::kPlace.high && glm::length(north) > 0))
+        if (!(std::abs(place.x) <= scene::kPlace.high && std::abs(place.y) <= scene::kPlace.high &&
+              glm::length(north) > 0))
             return false;
         fix.position = {place.x, s.altitude_m, place.y};
         fix.north = glm::normalize(north);

@@ -24,15 +24,18 @@ namespace sward::feed {
 namespace {
 
 constexpr std::size_t kMostHost = 253; // bytes: a name of the DNS
-constexpr std::size_t kMostPacket = 2048; // more than any packet that is known; what is longer shows by its size
+constexpr std::size_t kMostPacket =
+    2048; // more than any packet that is known; what is longer shows by its size
 
 struct FreeAddresses {
     void operator()(addrinfo* list) const { freeaddrinfo(list); }
 };
 using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
 
-base::Error failure(std::string_view option, const std::string& where, const std::string& found, std::string_view expected) {
-    return {base::ExitCode::kIo, fmt::format("{}: {}: found {}, expected {}", option, base::printable(where, 300), found, expected)};
+base::Error failure(std::string_view option, const std::string& where, const std::string& found,
+                    std::string_view expected) {
+    return {base::ExitCode::kIo, fmt::format("{}: {}: found {}, expected {}", option,
+                                             base::printable(where, 300), found, expected)};
 }
 
 std::string reason(int code) {
@@ -41,7 +44,8 @@ std::string reason(int code) {
 
 std::string written(const Endpoint& endpoint) {
     const std::string host = endpoint.host.empty() ? "127.0.0.1" : endpoint.host;
-    return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, endpoint.port) : fmt::format("[{}]:{}", host, endpoint.port);
+    return host.find(':') == std::string::npos ? fmt::format("{}:{}", host, endpoint.port)
+                                               : fmt::format("[{}]:{}", host, endpoint.port);
 }
 
 Addresses look_up(const Endpoint& endpoint, std::string_view option) {
@@ -51,14 +55,17 @@ Addresses look_up(const Endpoint& endpoint, std::string_view option) {
     hints.ai_flags = AI_NUMERICSERV;
     addrinfo* list = nullptr;
     const std::string host = endpoint.host.empty() ? "127.0.0.1" : endpoint.host;
-    const int code = getaddrinfo(host.c_str(), fmt::format("{}", endpoint.port).c_str(), &hints, &list);
+    const int code =
+        getaddrinfo(host.c_str(), fmt::format("{}", endpoint.port).c_str(), &hints, &list);
     if (code != 0)
-        throw failure(option, written(endpoint), gai_strerror(code), "a host that this machine knows");
+        throw failure(option, written(endpoint), gai_strerror(code),
+                      "a host that this machine knows");
     return Addresses(list);
 }
 
 /// A socket on the first of the addresses that `join` takes (bind or connect).
-int open_socket(const Endpoint& endpoint, std::string_view option, int (*join)(int, const sockaddr*, socklen_t), const char* expected) {
+int open_socket(const Endpoint& endpoint, std::string_view option,
+                int (*join)(int, const sockaddr*, socklen_t), const char* expected) {
     const Addresses addresses = look_up(endpoint, option);
     int code = 0;
     for (const addrinfo* at = addresses.get(); at; at = at->ai_next) {
@@ -69,21 +76,23 @@ int open_socket(const Endpoint& endpoint, std::string_view option, int (*join)(i
         if (handle >= 0)
             close(handle);
     }
-    throw failure(option, written(endpoint), code == EADDRINUSE ? "a port in use" : reason(code), expected);
+    throw failure(option, written(endpoint), code == EADDRINUSE ? "a port in use" : reason(code),
+                  expected);
 }
 
 /// "127.0.0.1:5550" of a socket's own end or of the other, and the port.
 std::pair<std::string, std::uint16_t> name_of(const sockaddr_storage& address, socklen_t size) {
     std::array<char, 64> host{}, port{};
-    if (getnameinfo(reinterpret_cast<const sockaddr*>(&address), size, host.data(), host.size(), port.data(), port.size(),
-                    NI_NUMERICHOST | NI_NUMERICSERV) != 0)
+    if (getnameinfo(reinterpret_cast<const sockaddr*>(&address), size, host.data(), host.size(),
+                    port.data(), port.size(), NI_NUMERICHOST | NI_NUMERICSERV) != 0)
         return {"?", 0};
     std::uint16_t number = 0;
     std::from_chars(port.data(), port.data() + std::strlen(port.data()), number);
     return {written({host.data(), number}), number};
 }
 
-/// How long ago the kernel got a packet, by the time it wrote beside it: a picture may take longer than packets are apart.
+/// How long ago the kernel got a packet, by the time it wrote beside it: a picture may take longer
+/// than packets are apart.
 double age_of(msghdr& message) {
     timespec now{};
     clock_gettime(CLOCK_REALTIME, &now);
@@ -92,7 +101,8 @@ double age_of(msghdr& message) {
             continue;
         timespec then{};
         std::memcpy(&then, CMSG_DATA(at), sizeof then);
-        const double age = double(now.tv_sec - then.tv_sec) + 1e-9 * double(now.tv_nsec - then.tv_nsec);
+        const double age =
+            double(now.tv_sec - then.tv_sec) + 1e-9 * double(now.tv_nsec - then.tv_nsec);
         return std::clamp(age, 0.0, 1.0); // the machine's clock may be set meanwhile
     }
     return 0;
@@ -112,24 +122,27 @@ std::optional<Endpoint> parse_endpoint(std::string_view text) {
         if (bracketed)
             host = host.substr(1, host.size() - 2);
         const auto fits = [&](char c) {
-            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' || c == '-' || c == '_' ||
-                   (bracketed && (c == ':' || c == '%'));
+            return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                   c == '.' || c == '-' || c == '_' || (bracketed && (c == ':' || c == '%'));
         };
         if (host.empty() || host.size() > kMostHost || !std::all_of(host.begin(), host.end(), fits))
             return std::nullopt;
         endpoint.host = host;
         text.remove_prefix(colon + 1);
     }
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), endpoint.port);
+    const auto [end, error] =
+        std::from_chars(text.data(), text.data() + text.size(), endpoint.port);
     if (error != std::errc() || end != text.data() + text.size())
         return std::nullopt;
     return endpoint;
 }
 
 UdpReceiver::UdpReceiver(const Endpoint& endpoint, std::string_view option)
-    : handle_(open_socket(endpoint, option, bind, "an address of this machine and a port that is free")) {
+    : handle_(open_socket(endpoint, option, bind,
+                          "an address of this machine and a port that is free")) {
     const int on = 1;
-    setsockopt(handle_, SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on); // without it packets count from when they are read
+    setsockopt(handle_, SOL_SOCKET, SO_TIMESTAMPNS, &on,
+               sizeof on); // without it packets count from when they are read
     sockaddr_storage own{};
     socklen_t size = sizeof own;
     getsockname(handle_, reinterpret_cast<sockaddr*>(&own), &size);
@@ -178,9 +191,11 @@ UdpSender::~UdpSender() {
 }
 
 bool UdpSender::send(std::span<const std::byte> bytes) {
-    // What nobody listened to comes back as ECONNREFUSED of the next one, which has not gone out then.
+    // What nobody listened to comes back as ECONNREFUSED of the next one, which has not gone out
+    // then.
     for (int attempt = 0; attempt < 2; ++attempt) {
-        if (::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size()))
+        if (::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+            static_cast<ssize_t>(bytes.size()))
             return true;
         if (errno != ECONNREFUSED && errno != EINTR)
             return false;

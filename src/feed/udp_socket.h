@@ -16,7 +16,8 @@ struct Endpoint {
     std::string host; ///< a name or an address; empty: this machine alone, by 127.0.0.1
     std::uint16_t port = 0;
 };
-/// "udp:PORT" or "udp:HOST:PORT", HOST a name, an IPv4 address or an IPv6 one in brackets, PORT 0 to 65535. None for anything else.
+/// "udp:PORT" or "udp:HOST:PORT", HOST a name, an IPv4 address or an IPv6 one in brackets, PORT 0
+/// to 65535. None for anything else.
 [[nodiscard]] std::optional<Endpoint> parse_endpoint(std::string_view text);
 
 struct Datagram {
@@ -28,7 +29,8 @@ struct Datagram {
 /// A bound socket that nobody waits on. Not shared with another program.
 class UdpReceiver {
 public:
-    /// Binds. Port 0: one that is free. Throws Error(kIo) that names `option`: no such address, port in use.
+    /// Binds. Port 0: one that is free. Throws Error(kIo) that names `option`: no such address,
+    /// port in use.
     UdpReceiver(const Endpoint& endpoint, std::string_view option);
     ~UdpReceiver();
     UdpReceiver(const UdpReceiver&) = delete;
@@ -36,7 +38,8 @@ public:
 
     [[nodiscard]] const std::string& address() const { return address_; } ///< "127.0.0.1:5550"
     [[nodiscard]] std::uint16_t port() const { return port_; }
-    /// Hands over what has come since the last call, in order, `most` packets at most: a flood shall not stop the picture. Returns how many.
+    /// Hands over what has come since the last call, in order, `most` packets at most: a flood
+    /// shall not stop the picture. Returns how many.
     int receive(const std::function<void(const Datagram&)>& take, int most = 1024);
 
 private:
@@ -45,7 +48,8 @@ private:
     std::string address_;
 };
 
-/// A socket for sending to one place. Nobody else can reach it, and nothing that comes back is read.
+/// A socket for sending to one place. Nobody else can reach it, and nothing that comes back is
+/// read.
 class UdpSender {
 public:
     /// Throws Error(kIo) that names `option`: no such host, no way to it.

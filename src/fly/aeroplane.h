@@ -37,8 +37,9 @@ struct AeroplaneState {
     [[nodiscard]] glm::dvec3 ahead() const { return turn * glm::dvec3(0, 0, -1); }
 };
 
-/// Six degrees of freedom at a fixed step, whatever the pictures' rate: lift with stall, induced drag with ground effect, moments by derivatives, a
-/// propeller of constant power, three sprung wheels. What hits the ground with more than its wheels, or too hard, has crashed: some seconds
+/// Six degrees of freedom at a fixed step, whatever the pictures' rate: lift with stall, induced
+/// drag with ground effect, moments by derivatives, a propeller of constant power, three sprung
+/// wheels. What hits the ground with more than its wheels, or too hard, has crashed: some seconds
 /// later it is where it began. Throws nothing after construction.
 class Aeroplane {
 public:

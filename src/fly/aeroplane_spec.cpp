@@ -17,7 +17,8 @@ using scene::TableReader;
 
 constexpr std::uint64_t kLimit = 1u << 16; // bytes of a file
 
-/// Signs are kept where another sign would be no aeroplane: it would turn over by itself, or away from the stick.
+/// Signs are kept where another sign would be no aeroplane: it would turn over by itself, or away
+/// from the stick.
 void read_air(TableReader& table, Derivatives& air) {
     table.number("lift_zero", air.lift_zero, {-0.5, 1.5, ""});
     table.number("lift_slope", air.lift_slope, {2, 6.3, "a radian"});
@@ -67,11 +68,16 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     if (std::optional<TableReader> air = reader.table("air"))
         read_air(*air, spec.air);
     reader.finish();
-    const double lift = 2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
-    const double most = spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * 3.14159265358979 / 180;
+    const double lift =
+        2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
+    const double most =
+        spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * 3.14159265358979 / 180;
     if (lift > 0.8 * most)
-        throw reader.error("cruise_mps", fmt::format("{} m/s, at which the wing needs a lift coefficient of {:.2f}", spec.cruise_mps, lift),
-                           fmt::format("one below {:.2f}: faster, lighter, or more wing", 0.8 * most));
+        throw reader.error(
+            "cruise_mps",
+            fmt::format("{} m/s, at which the wing needs a lift coefficient of {:.2f}",
+                        spec.cruise_mps, lift),
+            fmt::format("one below {:.2f}: faster, lighter, or more wing", 0.8 * most));
     return spec;
 }
 

@@ -18,8 +18,7 @@ public:
     Buffer(Buffer&& other) noexcept;
     Buffer& operator=(Buffer&& other) noexcept;
 
-    template<class T>
-    static Buffer of(std::span<const T> items) {
+    template<class T> static Buffer of(std::span<const T> items) {
         Buffer buffer(items.size_bytes());
         buffer.upload(items.data(), items.size_bytes());
         return buffer;
@@ -31,8 +30,7 @@ public:
     void clear_to_zero();
     /// Copies out; waits for the GPU.
     void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
-    template<class T>
-    [[nodiscard]] std::vector<T> read_all(std::size_t count) const {
+    template<class T> [[nodiscard]] std::vector<T> read_all(std::size_t count) const {
         std::vector<T> items(count);
         read(items.data(), count * sizeof(T));
         return items;

@@ -18,7 +18,8 @@ using base::ExitCode;
 
 namespace {
 
-constexpr std::size_t kDriverRoom = std::size_t{512} << 20; ///< a driver with its compiler may take so much address space
+constexpr std::size_t kDriverRoom =
+    std::size_t{512} << 20; ///< a driver with its compiler may take so much address space
 
 } // namespace
 
@@ -33,15 +34,24 @@ struct HeadlessContext::Impl {
         if (candidate == EGL_NO_DISPLAY || !eglInitialize(candidate, nullptr, nullptr)) {
             return false;
         }
-        const EGLint config_wants[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
-        const EGLint context_wants[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                        EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+        const EGLint config_wants[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
+                                       EGL_OPENGL_BIT, EGL_NONE};
+        const EGLint context_wants[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                        4,
+                                        EGL_CONTEXT_MINOR_VERSION,
+                                        5,
+                                        EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                        EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                        EGL_CONTEXT_OPENGL_DEBUG,
+                                        debug ? EGL_TRUE : EGL_FALSE,
+                                        EGL_NONE};
         EGLConfig config = nullptr;
         EGLint count = 0;
-        if (eglBindAPI(EGL_OPENGL_API) && eglChooseConfig(candidate, config_wants, &config, 1, &count) && count > 0) {
+        if (eglBindAPI(EGL_OPENGL_API) &&
+            eglChooseConfig(candidate, config_wants, &config, 1, &count) && count > 0) {
             context = eglCreateContext(candidate, config, EGL_NO_CONTEXT, context_wants);
-            if (context != EGL_NO_CONTEXT && eglMakeCurrent(candidate, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+            if (context != EGL_NO_CONTEXT &&
+                eglMakeCurrent(candidate, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
                 display = candidate;
                 return true;
             }
@@ -56,28 +66,40 @@ struct HeadlessContext::Impl {
 };
 
 HeadlessContext::HeadlessContext(bool debug) : impl_(std::make_unique<Impl>()) {
-    // Devices first: on a machine with a GPU the surfaceless platform would be Mesa's software renderer.
+    // Devices first: on a machine with a GPU the surfaceless platform would be Mesa's software
+    // renderer.
     EGLDeviceEXT devices[16];
     EGLint count = 0;
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_platform_device") &&
-        epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") && eglQueryDevicesEXT(16, devices, &count)) {
+        epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration") &&
+        eglQueryDevicesEXT(16, devices, &count)) {
         for (int i = 0; i < count; ++i) {
             const char* extensions = eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS);
-            const bool software = extensions && std::string(extensions).find("EGL_MESA_device_software") != std::string::npos;
-            if (!software && impl_->try_display(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[i], nullptr), debug)) {
+            const bool software =
+                extensions &&
+                std::string(extensions).find("EGL_MESA_device_software") != std::string::npos;
+            if (!software && impl_->try_display(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT,
+                                                                         devices[i], nullptr),
+                                                debug)) {
                 impl_->platform = fmt::format("device {}", i);
                 return;
             }
         }
     }
     if (epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
-        impl_->try_display(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), debug)) {
+        impl_->try_display(
+            eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+            debug)) {
         impl_->platform = "surfaceless";
         return;
     }
     base::refuse_if_starved(kDriverRoom);
-    throw Error(ExitCode::kNoGpu, fmt::format("GPU: no OpenGL 4.5 core context through EGL ({} devices and the surfaceless "
-                                              "platform tried); is a driver installed (Debian: libegl-mesa0 libgl1-mesa-dri)?", count));
+    throw Error(
+        ExitCode::kNoGpu,
+        fmt::format(
+            "GPU: no OpenGL 4.5 core context through EGL ({} devices and the surfaceless "
+            "platform tried); is a driver installed (Debian: libegl-mesa0 libgl1-mesa-dri)?",
+            count));
 }
 
 HeadlessContext::~HeadlessContext() {
@@ -86,11 +108,16 @@ HeadlessContext::~HeadlessContext() {
     eglTerminate(impl_->display);
 }
 
-const std::string& HeadlessContext::platform() const { return impl_->platform; }
+const std::string& HeadlessContext::platform() const {
+    return impl_->platform;
+}
 
 ContextInfo context_info() {
-    const auto text = [](GLenum name) { return std::string(reinterpret_cast<const char*>(glGetString(name))); };
-    ContextInfo info{text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION), text(GL_SHADING_LANGUAGE_VERSION)};
+    const auto text = [](GLenum name) {
+        return std::string(reinterpret_cast<const char*>(glGetString(name)));
+    };
+    ContextInfo info{text(GL_VENDOR), text(GL_RENDERER), text(GL_VERSION),
+                     text(GL_SHADING_LANGUAGE_VERSION)};
     glGetIntegerv(GL_MAX_SAMPLES, &info.max_samples);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.max_texture_size);
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &info.max_array_layers);
@@ -102,8 +129,9 @@ ContextInfo context_info() {
 
 void require_gl45() {
     if (epoxy_gl_version() < 45) {
-        throw Error(ExitCode::kNoGpu, fmt::format("GPU: found OpenGL {}.{}, expected 4.5 or later", epoxy_gl_version() / 10,
-                                                  epoxy_gl_version() % 10));
+        throw Error(ExitCode::kNoGpu,
+                    fmt::format("GPU: found OpenGL {}.{}, expected 4.5 or later",
+                                epoxy_gl_version() / 10, epoxy_gl_version() % 10));
     }
 }
 
@@ -111,7 +139,8 @@ void watch_debug_messages(DebugMessages* sink) {
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
     glDebugMessageCallback(
-        [](GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message, const void* user) {
+        [](GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* message,
+           const void* user) {
             if (severity != GL_DEBUG_SEVERITY_HIGH && severity != GL_DEBUG_SEVERITY_MEDIUM) {
                 return;
             }

@@ -16,9 +16,9 @@ struct ContextInfo {
 };
 [[nodiscard]] ContextInfo context_info();
 
-/// An EGL context without a window: the first hardware EGL device that gives OpenGL 4.5 core, else Mesa's surfaceless platform
-/// (software). Current on this thread from construction to destruction. Throws Error(kNoGpu) that says
-/// what was tried.
+/// An EGL context without a window: the first hardware EGL device that gives OpenGL 4.5 core, else
+/// Mesa's surfaceless platform (software). Current on this thread from construction to destruction.
+/// Throws Error(kNoGpu) that says what was tried.
 class HeadlessContext {
 public:
     explicit HeadlessContext(bool debug = false);
@@ -35,7 +35,8 @@ private:
 /// Throws Error(kNoGpu) unless the current context is OpenGL 4.5 core or later.
 void require_gl45();
 
-/// Counts debug messages of severity medium and above from now on; the text of the first is kept. Tests fail on any.
+/// Counts debug messages of severity medium and above from now on; the text of the first is kept.
+/// Tests fail on any.
 struct DebugMessages {
     int count = 0;
     std::string first;

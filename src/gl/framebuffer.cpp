@@ -40,7 +40,8 @@ Framebuffer& Framebuffer::operator=(Framebuffer&& other) noexcept {
 
 void Framebuffer::bind(int width, int height) const {
     glBindFramebuffer(GL_FRAMEBUFFER, id_);
-    glViewportIndexedf(0, 0, 0, static_cast<float>(width), static_cast<float>(height)); // the others are a host's
+    glViewportIndexedf(0, 0, 0, static_cast<float>(width),
+                       static_cast<float>(height)); // the others are a host's
 }
 
 } // namespace sward::gl

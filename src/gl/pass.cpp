@@ -14,7 +14,9 @@ namespace {
 std::function<void()> g_breath;
 } // namespace
 
-void set_breath(std::function<void()> breath) { g_breath = std::move(breath); }
+void set_breath(std::function<void()> breath) {
+    g_breath = std::move(breath);
+}
 
 void breathe() {
     if (g_breath) {
@@ -22,7 +24,9 @@ void breathe() {
     }
 }
 
-PassTimers::~PassTimers() { glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data()); }
+PassTimers::~PassTimers() {
+    glDeleteQueries(static_cast<GLsizei>(queries_.size()), queries_.data());
+}
 
 std::uint32_t PassTimers::next_query() {
     if (used_ == queries_.size()) {
@@ -45,7 +49,8 @@ std::vector<PassTimers::Row> PassTimers::rows() {
         GLuint64 begin = 0, end = 0;
         glGetQueryObjectui64v(entry.begin_query, GL_QUERY_RESULT, &begin);
         glGetQueryObjectui64v(entry.end_query, GL_QUERY_RESULT, &end);
-        auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.name == entry.name; });
+        auto row = std::find_if(rows.begin(), rows.end(),
+                                [&](const Row& r) { return r.name == entry.name; });
         if (row == rows.end()) {
             row = rows.insert(rows.end(), Row{entry.name, 0, 0});
         }
@@ -72,7 +77,8 @@ PassScope::~PassScope() {
     if (timers_.wait_) {
         glFinish();
     }
-    const std::chrono::duration<double, std::milli> passed = std::chrono::steady_clock::now() - start_;
+    const std::chrono::duration<double, std::milli> passed =
+        std::chrono::steady_clock::now() - start_;
     timers_.entries_[entry_].cpu_ms = passed.count();
     glPopDebugGroup();
 }

@@ -8,7 +8,8 @@
 
 namespace sward::gl {
 
-/// Times of the passes of one frame. One name a pass serves the timer, the debug group and the statistics row.
+/// Times of the passes of one frame. One name a pass serves the timer, the debug group and the
+/// statistics row.
 class PassTimers {
 public:
     struct Row {
@@ -21,7 +22,8 @@ public:
     PassTimers(const PassTimers&) = delete;
     PassTimers& operator=(const PassTimers&) = delete;
 
-    /// `wait`: until the GPU is done, at both ends of each pass. Then cpu_ms is a pass's own time in software too.
+    /// `wait`: until the GPU is done, at both ends of each pass. Then cpu_ms is a pass's own time
+    /// in software too.
     void begin_frame(bool wait = false);
     /// Rows of the frame begun last; a pass that ran more than once is summed. Waits for the GPU.
     [[nodiscard]] std::vector<Row> rows();

@@ -22,11 +22,16 @@ namespace {
 
 GLenum stage_of(const std::filesystem::path& path) {
     const std::string extension = path.extension().string();
-    if (extension == ".vert") return GL_VERTEX_SHADER;
-    if (extension == ".tesc") return GL_TESS_CONTROL_SHADER;
-    if (extension == ".tese") return GL_TESS_EVALUATION_SHADER;
-    if (extension == ".frag") return GL_FRAGMENT_SHADER;
-    if (extension == ".comp") return GL_COMPUTE_SHADER;
+    if (extension == ".vert")
+        return GL_VERTEX_SHADER;
+    if (extension == ".tesc")
+        return GL_TESS_CONTROL_SHADER;
+    if (extension == ".tese")
+        return GL_TESS_EVALUATION_SHADER;
+    if (extension == ".frag")
+        return GL_FRAGMENT_SHADER;
+    if (extension == ".comp")
+        return GL_COMPUTE_SHADER;
     throw Error(ExitCode::kNoGpu, path.string() + ": shader: no stage has this extension");
 }
 
@@ -41,16 +46,22 @@ std::string one_line(std::string log) {
     return log;
 }
 
-/// Words of each declaration that begins with `uniform` and holds no block, in code that is left out by the preprocessor too: a program's
-/// variants differ by it, and what sets their uniforms does not ask which variant it has.
+/// Words of each declaration that begins with `uniform` and holds no block, in code that is left
+/// out by the preprocessor too: a program's variants differ by it, and what sets their uniforms
+/// does not ask which variant it has.
 void add_uniforms(std::vector<std::string>& words, std::string_view text) {
-    const auto is_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    const auto is_word = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
     bool declares = false;
     for (std::size_t at = 0; at < text.size();) {
         if (text.substr(at, 2) == "//") {
             at = std::min(text.find('\n', at), text.size());
         } else if (is_word(text[at])) {
-            const std::size_t end = static_cast<std::size_t>(std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(), is_word) - text.begin());
+            const std::size_t end = static_cast<std::size_t>(
+                std::find_if_not(text.begin() + static_cast<std::ptrdiff_t>(at), text.end(),
+                                 is_word) -
+                text.begin());
             const std::string_view word = text.substr(at, end - at);
             if (declares) {
                 words.emplace_back(word);
@@ -102,7 +113,8 @@ GLuint build(const std::string& name, const std::vector<std::filesystem::path>& 
             GLsizei length = 0;
             glGetProgramInfoLog(program, static_cast<GLsizei>(log.size()), &length, log.data());
             log.resize(static_cast<std::size_t>(length));
-            throw Error(ExitCode::kNoGpu, fmt::format("{}: link: {}", stages.front().string(), one_line(log)));
+            throw Error(ExitCode::kNoGpu,
+                        fmt::format("{}: link: {}", stages.front().string(), one_line(log)));
         }
     } catch (...) {
         glDeleteProgram(program);
@@ -132,7 +144,8 @@ std::vector<std::pair<std::string, int>> uniforms_of(GLuint program) {
 
 } // namespace
 
-Program::Program(std::string name, std::vector<std::filesystem::path> stages, std::vector<std::string> defines)
+Program::Program(std::string name, std::vector<std::filesystem::path> stages,
+                 std::vector<std::string> defines)
     : name_(std::move(name)), stages_(std::move(stages)), defines_(std::move(defines)) {
     reload();
 }
@@ -144,8 +157,9 @@ Program::~Program() {
 }
 
 Program::Program(Program&& other) noexcept
-    : name_(std::move(other.name_)), stages_(std::move(other.stages_)), defines_(std::move(other.defines_)),
-      id_(std::exchange(other.id_, 0)), locations_(std::move(other.locations_)), declared_(std::move(other.declared_)) {}
+    : name_(std::move(other.name_)), stages_(std::move(other.stages_)),
+      defines_(std::move(other.defines_)), id_(std::exchange(other.id_, 0)),
+      locations_(std::move(other.locations_)), declared_(std::move(other.declared_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
@@ -157,7 +171,9 @@ Program& Program::operator=(Program&& other) noexcept {
     return *this;
 }
 
-void Program::use() const { glUseProgram(id_); }
+void Program::use() const {
+    glUseProgram(id_);
+}
 
 int Program::location(const char* uniform) const {
     for (const auto& [name, at] : locations_) {
@@ -165,9 +181,12 @@ int Program::location(const char* uniform) const {
             return at;
         }
     }
-    const std::string_view whole = std::string_view(uniform).substr(0, std::string_view(uniform).find_first_of(".["));
+    const std::string_view whole =
+        std::string_view(uniform).substr(0, std::string_view(uniform).find_first_of(".["));
     if (std::find(declared_.begin(), declared_.end(), whole) == declared_.end()) {
-        throw Error(ExitCode::kNoGpu, fmt::format("{}: no shader of this program declares the uniform {}", name_, uniform));
+        throw Error(
+            ExitCode::kNoGpu,
+            fmt::format("{}: no shader of this program declares the uniform {}", name_, uniform));
     }
     return -1; // one that the compiler left out
 }

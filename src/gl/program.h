@@ -16,7 +16,8 @@ namespace sward::gl {
 class Program {
 public:
     Program() = default;
-    Program(std::string name, std::vector<std::filesystem::path> stages, std::vector<std::string> defines = {});
+    Program(std::string name, std::vector<std::filesystem::path> stages,
+            std::vector<std::string> defines = {});
     ~Program();
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
@@ -24,8 +25,8 @@ public:
     void use() const;
     /// Builds again from disk; on failure the old program stays and the Error is thrown.
     void reload();
-    /// A uniform that the compiler left out of this variant is passed over; one that no source of the program declares throws
-    /// Error(kNoGpu) with the program's and the uniform's name.
+    /// A uniform that the compiler left out of this variant is passed over; one that no source of
+    /// the program declares throws Error(kNoGpu) with the program's and the uniform's name.
     void set(const char* uniform, int value) const;
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const glm::vec4& value) const;
@@ -39,8 +40,11 @@ private:
     std::vector<std::filesystem::path> stages_;
     std::vector<std::string> defines_;
     std::uint32_t id_ = 0;
-    std::vector<std::pair<std::string, int>> locations_; ///< of the uniforms that it has: looked up once, for drivers search for names slowly
-    std::vector<std::string> declared_; ///< words of its sources' uniform declarations, in every variant
+    std::vector<std::pair<std::string, int>>
+        locations_; ///< of the uniforms that it has: looked up once, for drivers search for names
+                    ///< slowly
+    std::vector<std::string>
+        declared_; ///< words of its sources' uniform declarations, in every variant
 };
 
 } // namespace sward::gl

@@ -22,7 +22,8 @@ namespace {
 constexpr std::uint64_t kMaxShaderBytes = 1u << 20;
 fs::path g_given; // by a host; the context's thread only
 
-void expand(ShaderSource& out, const fs::path& root, const fs::path& name, const std::string& wanted_by) {
+void expand(ShaderSource& out, const fs::path& root, const fs::path& name,
+            const std::string& wanted_by) {
     if (std::find(out.files.begin(), out.files.end(), name) != out.files.end()) {
         return; // every file once: headers need no guards of their own, and cycles end here
     }
@@ -30,7 +31,9 @@ void expand(ShaderSource& out, const fs::path& root, const fs::path& name, const
     try {
         text = base::read_text(root / name, kMaxShaderBytes);
     } catch (const Error& error) {
-        throw Error(ExitCode::kNoGpu, fmt::format("{}: shader: {}", wanted_by.empty() ? name.string() : wanted_by, error.what()));
+        throw Error(ExitCode::kNoGpu,
+                    fmt::format("{}: shader: {}", wanted_by.empty() ? name.string() : wanted_by,
+                                error.what()));
     }
     const std::size_t file_number = out.files.size();
     out.files.push_back(name);
@@ -57,7 +60,9 @@ void expand(ShaderSource& out, const fs::path& root, const fs::path& name, const
 
 } // namespace
 
-void set_shader_directory(const fs::path& directory) { g_given = directory; }
+void set_shader_directory(const fs::path& directory) {
+    g_given = directory;
+}
 
 fs::path shader_directory() {
     if (const char* chosen = std::getenv("SWARD_SHADERS"); chosen && *chosen) {
@@ -91,7 +96,9 @@ std::string readable_log(const std::string& log, const ShaderSource& source) {
         const std::size_t file = std::stoul(match[2].str());
         out.append(from, match[0].first);
         const std::string line = match[3].matched ? match[3].str() : match[4].str();
-        out += match[1].str() + (file < source.files.size() ? source.files[file].string() : match[2].str()) + ":" + line;
+        out += match[1].str() +
+               (file < source.files.size() ? source.files[file].string() : match[2].str()) + ":" +
+               line;
         from = match[0].second;
     }
     out.append(from, log.cend());

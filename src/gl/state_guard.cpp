@@ -11,64 +11,92 @@ struct Cap {
     GLenum name;
     bool wanted;
 };
-constexpr std::array<Cap, StateGuard::kCaps> kCapTable = {{{GL_DEPTH_TEST, false},
-                                                           {GL_CULL_FACE, false},
-                                                           {GL_STENCIL_TEST, false},
-                                                           {GL_DEPTH_CLAMP, false},
-                                                           {GL_POLYGON_OFFSET_FILL, false},
-                                                           {GL_POLYGON_OFFSET_LINE, false},
-                                                           {GL_POLYGON_OFFSET_POINT, false},
-                                                           {GL_POLYGON_SMOOTH, false},
-                                                           {GL_COLOR_LOGIC_OP, false},
-                                                           {GL_RASTERIZER_DISCARD, false},
-                                                           {GL_PRIMITIVE_RESTART, false},
-                                                           {GL_PRIMITIVE_RESTART_FIXED_INDEX, false},
-                                                           {GL_SAMPLE_ALPHA_TO_COVERAGE, false},
-                                                           {GL_SAMPLE_ALPHA_TO_ONE, false},
-                                                           {GL_SAMPLE_COVERAGE, false},
-                                                           {GL_SAMPLE_MASK, false},
-                                                           {GL_SAMPLE_SHADING, false},
-                                                           {GL_FRAMEBUFFER_SRGB, false},
-                                                           {GL_CLIP_DISTANCE0, false},
-                                                           {GL_CLIP_DISTANCE1, false},
-                                                           {GL_CLIP_DISTANCE2, false},
-                                                           {GL_CLIP_DISTANCE3, false},
-                                                           {GL_CLIP_DISTANCE4, false},
-                                                           {GL_CLIP_DISTANCE5, false},
-                                                           {GL_CLIP_DISTANCE6, false},
-                                                           {GL_CLIP_DISTANCE7, false},
-                                                           {GL_DITHER, true},
-                                                           {GL_MULTISAMPLE, true}}};
+constexpr std::array<Cap, StateGuard::kCaps> kCapTable = {
+    {{GL_DEPTH_TEST, false},
+     {GL_CULL_FACE, false},
+     {GL_STENCIL_TEST, false},
+     {GL_DEPTH_CLAMP, false},
+     {GL_POLYGON_OFFSET_FILL, false},
+     {GL_POLYGON_OFFSET_LINE, false},
+     {GL_POLYGON_OFFSET_POINT, false},
+     {GL_POLYGON_SMOOTH, false},
+     {GL_COLOR_LOGIC_OP, false},
+     {GL_RASTERIZER_DISCARD, false},
+     {GL_PRIMITIVE_RESTART, false},
+     {GL_PRIMITIVE_RESTART_FIXED_INDEX, false},
+     {GL_SAMPLE_ALPHA_TO_COVERAGE, false},
+     {GL_SAMPLE_ALPHA_TO_ONE, false},
+     {GL_SAMPLE_COVERAGE, false},
+     {GL_SAMPLE_MASK, false},
+     {GL_SAMPLE_SHADING, false},
+     {GL_FRAMEBUFFER_SRGB, false},
+     {GL_CLIP_DISTANCE0, false},
+     {GL_CLIP_DISTANCE1, false},
+     {GL_CLIP_DISTANCE2, false},
+     {GL_CLIP_DISTANCE3, false},
+     {GL_CLIP_DISTANCE4, false},
+     {GL_CLIP_DISTANCE5, false},
+     {GL_CLIP_DISTANCE6, false},
+     {GL_CLIP_DISTANCE7, false},
+     {GL_DITHER, true},
+     {GL_MULTISAMPLE, true}}};
 
 constexpr std::array<GLenum, StateGuard::kPixelStores> kPixelStoreTable = {
-    GL_UNPACK_SWAP_BYTES, GL_UNPACK_LSB_FIRST, GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT,
-    GL_UNPACK_SKIP_IMAGES, GL_UNPACK_COMPRESSED_BLOCK_WIDTH, GL_UNPACK_COMPRESSED_BLOCK_HEIGHT, GL_UNPACK_COMPRESSED_BLOCK_DEPTH,
-    GL_UNPACK_COMPRESSED_BLOCK_SIZE, GL_PACK_SWAP_BYTES, GL_PACK_LSB_FIRST, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS,
-    GL_PACK_IMAGE_HEIGHT, GL_PACK_SKIP_IMAGES, GL_PACK_COMPRESSED_BLOCK_WIDTH, GL_PACK_COMPRESSED_BLOCK_HEIGHT, GL_PACK_COMPRESSED_BLOCK_DEPTH,
-    GL_PACK_COMPRESSED_BLOCK_SIZE, GL_UNPACK_ALIGNMENT, GL_PACK_ALIGNMENT};
+    GL_UNPACK_SWAP_BYTES,
+    GL_UNPACK_LSB_FIRST,
+    GL_UNPACK_ROW_LENGTH,
+    GL_UNPACK_SKIP_ROWS,
+    GL_UNPACK_SKIP_PIXELS,
+    GL_UNPACK_IMAGE_HEIGHT,
+    GL_UNPACK_SKIP_IMAGES,
+    GL_UNPACK_COMPRESSED_BLOCK_WIDTH,
+    GL_UNPACK_COMPRESSED_BLOCK_HEIGHT,
+    GL_UNPACK_COMPRESSED_BLOCK_DEPTH,
+    GL_UNPACK_COMPRESSED_BLOCK_SIZE,
+    GL_PACK_SWAP_BYTES,
+    GL_PACK_LSB_FIRST,
+    GL_PACK_ROW_LENGTH,
+    GL_PACK_SKIP_ROWS,
+    GL_PACK_SKIP_PIXELS,
+    GL_PACK_IMAGE_HEIGHT,
+    GL_PACK_SKIP_IMAGES,
+    GL_PACK_COMPRESSED_BLOCK_WIDTH,
+    GL_PACK_COMPRESSED_BLOCK_HEIGHT,
+    GL_PACK_COMPRESSED_BLOCK_DEPTH,
+    GL_PACK_COMPRESSED_BLOCK_SIZE,
+    GL_UNPACK_ALIGNMENT,
+    GL_PACK_ALIGNMENT};
 constexpr int kDefaultAlignment = 4; // of the last two; of the others 0
 
 struct Target {
     GLenum target, binding;
 };
-constexpr std::array<Target, 7> kBufferTable = {{{GL_DRAW_INDIRECT_BUFFER, GL_DRAW_INDIRECT_BUFFER_BINDING},
-                                                 {GL_DISPATCH_INDIRECT_BUFFER, GL_DISPATCH_INDIRECT_BUFFER_BINDING},
-                                                 {GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING},
-                                                 {GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING},
-                                                 {GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING},
-                                                 {GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING},
-                                                 {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING}}};
-constexpr std::array<Target, 4> kTextureTable = {{{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
-                                                  {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
-                                                  {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
-                                                  {GL_TEXTURE_BUFFER, GL_TEXTURE_BINDING_BUFFER}}};
-constexpr std::array<GLenum, 6> kBlendTable = {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB,
-                                               GL_BLEND_EQUATION_ALPHA};
-constexpr std::array<GLenum, 6> kImageTable = {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER,
-                                               GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT};
+constexpr std::array<Target, 7> kBufferTable = {
+    {{GL_DRAW_INDIRECT_BUFFER, GL_DRAW_INDIRECT_BUFFER_BINDING},
+     {GL_DISPATCH_INDIRECT_BUFFER, GL_DISPATCH_INDIRECT_BUFFER_BINDING},
+     {GL_PIXEL_PACK_BUFFER, GL_PIXEL_PACK_BUFFER_BINDING},
+     {GL_PIXEL_UNPACK_BUFFER, GL_PIXEL_UNPACK_BUFFER_BINDING},
+     {GL_QUERY_BUFFER, GL_QUERY_BUFFER_BINDING},
+     {GL_UNIFORM_BUFFER, GL_UNIFORM_BUFFER_BINDING},
+     {GL_SHADER_STORAGE_BUFFER, GL_SHADER_STORAGE_BUFFER_BINDING}}};
+constexpr std::array<Target, 4> kTextureTable = {
+    {{GL_TEXTURE_2D, GL_TEXTURE_BINDING_2D},
+     {GL_TEXTURE_2D_ARRAY, GL_TEXTURE_BINDING_2D_ARRAY},
+     {GL_TEXTURE_2D_MULTISAMPLE, GL_TEXTURE_BINDING_2D_MULTISAMPLE},
+     {GL_TEXTURE_BUFFER, GL_TEXTURE_BINDING_BUFFER}}};
+constexpr std::array<GLenum, 6> kBlendTable = {GL_BLEND_SRC_RGB,      GL_BLEND_DST_RGB,
+                                               GL_BLEND_SRC_ALPHA,    GL_BLEND_DST_ALPHA,
+                                               GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA};
+constexpr std::array<GLenum, 6> kImageTable = {GL_IMAGE_BINDING_NAME,    GL_IMAGE_BINDING_LEVEL,
+                                               GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER,
+                                               GL_IMAGE_BINDING_ACCESS,  GL_IMAGE_BINDING_FORMAT};
 
-void set_switch(GLenum name, bool on) { on ? glEnable(name) : glDisable(name); }
-void set_switch_at(GLenum name, GLuint index, bool on) { on ? glEnablei(name, index) : glDisablei(name, index); }
+void set_switch(GLenum name, bool on) {
+    on ? glEnable(name) : glDisable(name);
+}
+void set_switch_at(GLenum name, GLuint index, bool on) {
+    on ? glEnablei(name, index) : glDisablei(name, index);
+}
 
 } // namespace
 
@@ -90,7 +118,9 @@ StateGuard::StateGuard() {
     glFrontFace(GL_CCW);
     glProvokingVertex(GL_LAST_VERTEX_CONVENTION);
     for (const GLenum store : kPixelStoreTable) {
-        glPixelStorei(store, store == GL_UNPACK_ALIGNMENT || store == GL_PACK_ALIGNMENT ? kDefaultAlignment : 0);
+        glPixelStorei(store, store == GL_UNPACK_ALIGNMENT || store == GL_PACK_ALIGNMENT
+                                 ? kDefaultAlignment
+                                 : 0);
     }
     for (const GLenum target : {GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER, GL_QUERY_BUFFER}) {
         glBindBuffer(target, 0);
@@ -171,9 +201,11 @@ void StateGuard::restore_switches() const {
     }
     for (GLuint i = 0; i < kDrawBuffers; ++i) {
         set_switch_at(GL_BLEND, i, blends_[i]);
-        glColorMaski(i, colour_masks_[i][0], colour_masks_[i][1], colour_masks_[i][2], colour_masks_[i][3]);
+        glColorMaski(i, colour_masks_[i][0], colour_masks_[i][1], colour_masks_[i][2],
+                     colour_masks_[i][3]);
     }
-    glBlendFuncSeparatei(0, static_cast<GLenum>(blend_[0]), static_cast<GLenum>(blend_[1]), static_cast<GLenum>(blend_[2]), static_cast<GLenum>(blend_[3]));
+    glBlendFuncSeparatei(0, static_cast<GLenum>(blend_[0]), static_cast<GLenum>(blend_[1]),
+                         static_cast<GLenum>(blend_[2]), static_cast<GLenum>(blend_[3]));
     glBlendEquationSeparatei(0, static_cast<GLenum>(blend_[4]), static_cast<GLenum>(blend_[5]));
     for (std::size_t i = 0; i < kPixelStoreTable.size(); ++i) {
         glPixelStorei(kPixelStoreTable[i], pixel_stores_[i]);
@@ -200,7 +232,9 @@ void StateGuard::restore_bindings() const {
         for (GLuint i = 0; i < ranges.size(); ++i) {
             const Range& range = ranges[i];
             if (range.size > 0) {
-                glBindBufferRange(target, i, static_cast<GLuint>(range.buffer), static_cast<GLintptr>(range.first), static_cast<GLsizeiptr>(range.size));
+                glBindBufferRange(target, i, static_cast<GLuint>(range.buffer),
+                                  static_cast<GLintptr>(range.first),
+                                  static_cast<GLsizeiptr>(range.size));
             } else {
                 glBindBufferBase(target, i, static_cast<GLuint>(range.buffer));
             }
@@ -208,7 +242,8 @@ void StateGuard::restore_bindings() const {
     };
     bind_ranges(GL_UNIFORM_BUFFER, uniform_);
     bind_ranges(GL_SHADER_STORAGE_BUFFER, storage_);
-    for (std::size_t i = 0; i < kBufferTable.size(); ++i) { // after the ranges, which bind their targets too
+    for (std::size_t i = 0; i < kBufferTable.size();
+         ++i) { // after the ranges, which bind their targets too
         glBindBuffer(kBufferTable[i].target, static_cast<GLuint>(buffers_[i]));
     }
     for (GLuint unit = 0; unit < kUnits; ++unit) {
@@ -219,8 +254,9 @@ void StateGuard::restore_bindings() const {
         glBindSampler(unit, static_cast<GLuint>(samplers_[unit]));
     }
     glActiveTexture(static_cast<GLenum>(active_unit_));
-    glBindImageTexture(0, static_cast<GLuint>(image_[0]), image_[1], static_cast<GLboolean>(image_[2] != 0), image_[3], static_cast<GLenum>(image_[4]),
-                       static_cast<GLenum>(image_[5]));
+    glBindImageTexture(0, static_cast<GLuint>(image_[0]), image_[1],
+                       static_cast<GLboolean>(image_[2] != 0), image_[3],
+                       static_cast<GLenum>(image_[4]), static_cast<GLenum>(image_[5]));
 }
 
 } // namespace sward::gl

@@ -13,8 +13,8 @@ namespace {
 constexpr int kSide = 4;
 constexpr std::size_t kBc5Bytes = 16;
 
-/// Distinct values of a block and how many texels have each, in floats for vector units; those beyond
-/// `size` count nothing.
+/// Distinct values of a block and how many texels have each, in floats for vector units; those
+/// beyond `size` count nothing.
 struct Histogram {
     std::array<float, 16> value{};
     std::array<float, 16> count{};
@@ -36,8 +36,8 @@ struct Ends {
     float error = 0; ///< sum of squares
 };
 
-/// Sum of squares of the values against `steps` + 1 even values from low to high. Four sums, so that the
-/// order, and with it the bytes, do not depend on the compiler's vectors.
+/// Sum of squares of the values against `steps` + 1 even values from low to high. Four sums, so
+/// that the order, and with it the bytes, do not depend on the compiler's vectors.
 float error_of(const Histogram& h, int low, int high, int steps) {
     const auto base = static_cast<float>(low);
     const auto most = static_cast<float>(steps);
@@ -228,7 +228,8 @@ void compress_shape(TextureArray& planes, int i, TextureArray& shapes) {
         std::size_t at = 0;
         for (int y = 0; y < view.height; y += kSide)
             for (int x = 0; x < view.width; x += kSide, at += kBc5Bytes)
-                compress_block(view, id, id + view.bytes, {out + at, out + packed.bytes + at}, x, y);
+                compress_block(view, id, id + view.bytes, {out + at, out + packed.bytes + at}, x,
+                               y);
     }
 }
 
@@ -258,7 +259,8 @@ TextureArray join_planes(const TextureArray& ids, const TextureArray& shapes) {
             std::size_t at = 0;
             for (int y = 0; y < view.height; y += kSide)
                 for (int x = 0; x < view.width; x += kSide, at += kBc5Bytes)
-                    decode_block(view, id, id + view.bytes, {in + at, in + packed.bytes + at}, x, y);
+                    decode_block(view, id, id + view.bytes, {in + at, in + packed.bytes + at}, x,
+                                 y);
         }
     }
     return planes;

@@ -72,7 +72,8 @@ struct Part {
     int first = 0, count = 0;
 };
 
-int add_accessor(tinygltf::Model& model, const Attribute& attribute, Part part, std::span<const BladeRecord> blades) {
+int add_accessor(tinygltf::Model& model, const Attribute& attribute, Part part,
+                 std::span<const BladeRecord> blades) {
     const auto components = static_cast<std::size_t>(part.count);
     std::vector<unsigned char>& data = model.buffers[0].data;
     tinygltf::BufferView view;
@@ -114,13 +115,16 @@ bool is_split(const Attribute& attribute) {
     return attribute.components > 1 && attribute.name[0] == '_';
 }
 
-void add_attribute(tinygltf::Model& model, tinygltf::Primitive& points, const Attribute& attribute, std::span<const BladeRecord> blades) {
+void add_attribute(tinygltf::Model& model, tinygltf::Primitive& points, const Attribute& attribute,
+                   std::span<const BladeRecord> blades) {
     if (!is_split(attribute)) {
-        points.attributes[attribute.name] = add_accessor(model, attribute, {0, attribute.components}, blades);
+        points.attributes[attribute.name] =
+            add_accessor(model, attribute, {0, attribute.components}, blades);
         return;
     }
     for (int c = 0; c < attribute.components; ++c)
-        points.attributes[component_name(attribute, c)] = add_accessor(model, attribute, {c, 1}, blades);
+        points.attributes[component_name(attribute, c)] =
+            add_accessor(model, attribute, {c, 1}, blades);
 }
 
 /// Depth and length of the JSON chunk, before a recursive parser sees it.
@@ -207,7 +211,8 @@ public:
 private:
     using Names = std::map<std::string, int>; ///< an attribute's accessor
 
-    /// All values of an attribute, one after the other; of a vector in three attributes or, as sets were written once, in one.
+    /// All values of an attribute, one after the other; of a vector in three attributes or, as sets
+    /// were written once, in one.
     std::vector<float> numbers(const Names& names, const Attribute& attribute) const {
         const bool split = is_split(attribute) && !names.contains(attribute.name);
         const int parts = split ? attribute.components : 1, each = split ? 1 : attribute.components;
@@ -219,18 +224,22 @@ private:
                 refuse("attribute", "none", name);
             const auto [data, count] = floats(found->second, name, each);
             if (part > 0 && values.size() != count * static_cast<std::size_t>(parts))
-                refuse(name, fmt::format("{} values", count), fmt::format("{}", values.size() / static_cast<std::size_t>(parts)));
+                refuse(name, fmt::format("{} values", count),
+                       fmt::format("{}", values.size() / static_cast<std::size_t>(parts)));
             values.resize(count * static_cast<std::size_t>(attribute.components));
             if (!split)
                 std::memcpy(values.data(), data, values.size() * sizeof(float));
             for (std::size_t i = 0; split && i < count; ++i)
-                std::memcpy(&values[i * static_cast<std::size_t>(parts) + static_cast<std::size_t>(part)], data + i * sizeof(float), sizeof(float));
+                std::memcpy(
+                    &values[i * static_cast<std::size_t>(parts) + static_cast<std::size_t>(part)],
+                    data + i * sizeof(float), sizeof(float));
         }
         return values;
     }
 
     /// Start and count of a tightly packed float accessor, bounds checked.
-    std::pair<const unsigned char*, std::size_t> floats(int index, const std::string& name, int components) const {
+    std::pair<const unsigned char*, std::size_t> floats(int index, const std::string& name,
+                                                        int components) const {
         const auto inside = [](int i, std::size_t size) {
             return i >= 0 && static_cast<std::size_t>(i) < size;
         };

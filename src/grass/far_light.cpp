@@ -29,20 +29,24 @@ TextureArray encode_far_light(const FarLight& light) {
                        2 * static_cast<int>(light.images()),
                        {},
                        TexelFormat::kRgba32f};
-    const std::size_t plane = light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
+    const std::size_t plane =
+        light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
     auto& bytes = array.mips.emplace_back(2 * light.samples.size() * sizeof(Texel));
     for (std::size_t n = 0; n < light.samples.size(); ++n) {
         const FarSample& s = light.samples[n];
         const std::size_t at = n / plane * 2 * plane + n % plane;
-        const Texel sun{s.sun.x, s.sun.y, s.sun.z, s.coverage}, sky{s.sky.x, s.sky.y, s.sky.z, s.height};
+        const Texel sun{s.sun.x, s.sun.y, s.sun.z, s.coverage},
+            sky{s.sky.x, s.sky.y, s.sky.z, s.height};
         std::memcpy(bytes.data() + at * sizeof(Texel), sun.data(), sizeof(Texel));
         std::memcpy(bytes.data() + (at + plane) * sizeof(Texel), sky.data(), sizeof(Texel));
     }
     return array;
 }
 
-void decode_far_light(const TextureArray& array, const std::filesystem::path& name, FarLight& light) {
-    const std::size_t plane = light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
+void decode_far_light(const TextureArray& array, const std::filesystem::path& name,
+                      FarLight& light) {
+    const std::size_t plane =
+        light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
     const auto expect = [&](std::string_view what, std::size_t found, std::size_t expected) {
         if (found != expected)
             throw base::input_error(base::ExitCode::kBadInput, name, 0, what, std::to_string(found),
@@ -50,7 +54,8 @@ void decode_far_light(const TextureArray& array, const std::filesystem::path& na
     };
     if (array.format != TexelFormat::kRgba32f)
         throw base::input_error(base::ExitCode::kBadInput, name, 0, "format", "another", "RGBA32F");
-    expect("width", static_cast<std::size_t>(array.width), static_cast<std::size_t>(light.sun_azimuths));
+    expect("width", static_cast<std::size_t>(array.width),
+           static_cast<std::size_t>(light.sun_azimuths));
     expect("height", static_cast<std::size_t>(array.height), light.sun_elevations_deg.size());
     expect("images", static_cast<std::size_t>(array.layers), 2 * light.images());
     light.samples.resize(light.images() * plane);

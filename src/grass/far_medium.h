@@ -8,10 +8,12 @@
 
 namespace sward::grass {
 
-/// RGBA32F, elevations wide and half mips tall, an image a kind; channels: factor on depth, on light, of the one density, of the other. No mips.
+/// RGBA32F, elevations wide and half mips tall, an image a kind; channels: factor on depth, on
+/// light, of the one density, of the other. No mips.
 [[nodiscard]] TextureArray encode_correction(const FarMedium& march);
 
 /// Checks every factor; `name` is for messages. Throws base::Error(kBadInput).
-void decode_correction(const TextureArray& array, const std::filesystem::path& name, FarMedium& march);
+void decode_correction(const TextureArray& array, const std::filesystem::path& name,
+                       FarMedium& march);
 
 } // namespace sward::grass

@@ -120,7 +120,8 @@ private:
         traits_ = traits_of_vk(header_.format);
         if (!traits_)
             refuse(ExitCode::kBadInput, "format", std::to_string(header_.format),
-                   "37 (RGBA8 UNORM), 43 (RGBA8 SRGB), 97 (RGBA16F), 109 (RGBA32F) or 141 (BC5 UNORM)");
+                   "37 (RGBA8 UNORM), 43 (RGBA8 SRGB), 97 (RGBA16F), 109 (RGBA32F) or 141 (BC5 "
+                   "UNORM)");
         if (header_.type_size != traits_->type_size)
             refuse(ExitCode::kBadInput, "type size", std::to_string(header_.type_size),
                    std::to_string(traits_->type_size));
@@ -152,7 +153,8 @@ private:
             refuse(ExitCode::kBadInput, "size",
                    fmt::format("{} x {}", header_.width, header_.height), "at least 1 x 1");
         const std::uint32_t most_side = header_.layers == 0 ? kMaxPlainSide : kMaxSide;
-        if (header_.width > most_side || header_.height > most_side || header_.layers > kMaxArrayLayers)
+        if (header_.width > most_side || header_.height > most_side ||
+            header_.layers > kMaxArrayLayers)
             refuse(ExitCode::kOverLimit, "size",
                    fmt::format("{} x {} x {}", header_.width, header_.height, header_.layers),
                    fmt::format("at most {0} x {0} x {1}", most_side, kMaxArrayLayers));
@@ -226,7 +228,8 @@ private:
         for (const std::vector<std::uint8_t>& mip : array.mips)
             for (std::size_t at = 0; at + 1 < mip.size(); at += 2)
                 if ((mip[at + 1] & 0x7C) == 0x7C) // all bits of the exponent
-                    refuse(ExitCode::kBadInput, "value", "one that is no number", "a finite number");
+                    refuse(ExitCode::kBadInput, "value", "one that is no number",
+                           "a finite number");
     }
 
     std::span<const std::byte> bytes_;
@@ -258,10 +261,9 @@ std::vector<std::byte> encode_ktx2(const TextureArray& array, int compression) {
         out.push_back(static_cast<std::byte>(c));
     put(out, Header{traits.vk_format, traits.type_size, static_cast<std::uint32_t>(array.width),
                     static_cast<std::uint32_t>(array.height), 0,
-                    array.plain ? 0 : static_cast<std::uint32_t>(array.layers), 1, static_cast<std::uint32_t>(count),
-                    compression == 0 ? kSchemeNone : kSchemeZstd,
-                    static_cast<std::uint32_t>(dfd_offset),
-                    static_cast<std::uint32_t>(dfd.size()),
+                    array.plain ? 0 : static_cast<std::uint32_t>(array.layers), 1,
+                    static_cast<std::uint32_t>(count), compression == 0 ? kSchemeNone : kSchemeZstd,
+                    static_cast<std::uint32_t>(dfd_offset), static_cast<std::uint32_t>(dfd.size()),
                     static_cast<std::uint32_t>(dfd_offset + dfd.size()),
                     static_cast<std::uint32_t>(kvd.size())});
     put<std::uint64_t>(out, 0); // no supercompression global data

@@ -9,10 +9,10 @@ namespace sward::grass {
 namespace {
 
 constexpr std::array<FormatTraits, 5> kFormats = {{
-    {TexelFormat::kRgba8, "RGBA8 UNORM", 37, 1, 1, 4}, // VK_FORMAT_R8G8B8A8_UNORM
-    {TexelFormat::kRgba32f, "RGBA32F", 109, 4, 1, 16}, // VK_FORMAT_R32G32B32A32_SFLOAT
-    {TexelFormat::kRgba16f, "RGBA16F", 97, 2, 1, 8},   // VK_FORMAT_R16G16B16A16_SFLOAT
-    {TexelFormat::kBc5, "BC5 UNORM", 141, 1, 4, 16},   // VK_FORMAT_BC5_UNORM_BLOCK
+    {TexelFormat::kRgba8, "RGBA8 UNORM", 37, 1, 1, 4},    // VK_FORMAT_R8G8B8A8_UNORM
+    {TexelFormat::kRgba32f, "RGBA32F", 109, 4, 1, 16},    // VK_FORMAT_R32G32B32A32_SFLOAT
+    {TexelFormat::kRgba16f, "RGBA16F", 97, 2, 1, 8},      // VK_FORMAT_R16G16B16A16_SFLOAT
+    {TexelFormat::kBc5, "BC5 UNORM", 141, 1, 4, 16},      // VK_FORMAT_BC5_UNORM_BLOCK
     {TexelFormat::kRgba8Srgb, "RGBA8 SRGB", 43, 1, 1, 4}, // VK_FORMAT_R8G8B8A8_SRGB
 }};
 
@@ -44,11 +44,12 @@ std::vector<Sample> samples_of(TexelFormat format) {
     const bool real = format != TexelFormat::kRgba8 && !srgb;
     const int bits = format == TexelFormat::kRgba32f ? 32 : real ? 16 : 8;
     for (int c = 0; c < 4; ++c) {
-        const int channel = (c == 3 ? kChannelAlpha : c) | (real ? kSampleFloat | kSampleSigned : 0) |
+        const int channel = (c == 3 ? kChannelAlpha : c) |
+                            (real ? kSampleFloat | kSampleSigned : 0) |
                             (srgb && c == 3 ? kSampleLinear : 0);
-        samples.push_back({static_cast<std::uint16_t>(c * bits), static_cast<std::uint8_t>(bits - 1),
-                           static_cast<std::uint8_t>(channel), 0,
-                           real ? std::bit_cast<std::uint32_t>(-1.0f) : 0,
+        samples.push_back({static_cast<std::uint16_t>(c * bits),
+                           static_cast<std::uint8_t>(bits - 1), static_cast<std::uint8_t>(channel),
+                           0, real ? std::bit_cast<std::uint32_t>(-1.0f) : 0,
                            real ? std::bit_cast<std::uint32_t>(1.0f) : 255});
     }
     return samples;
@@ -75,16 +76,17 @@ std::vector<std::byte> data_format_descriptor(TexelFormat format) {
     const std::vector<Sample> samples = samples_of(format);
     const auto block = static_cast<std::uint32_t>(24 + samples.size() * sizeof(Sample));
     const std::uint32_t model = format == TexelFormat::kBc5 ? kModelBc5 : kModelRgbsda;
-    const std::uint32_t transfer = format == TexelFormat::kRgba8Srgb ? kTransferSrgb : kTransferLinear;
+    const std::uint32_t transfer =
+        format == TexelFormat::kRgba8Srgb ? kTransferSrgb : kTransferLinear;
     const auto side = static_cast<std::uint32_t>(traits.block_side - 1);
     const std::array<std::uint32_t, 7> head = {
         4 + block,
-        0,                // vendor Khronos, descriptor type basic
-        2 | block << 16,  // version 1.3
+        0,               // vendor Khronos, descriptor type basic
+        2 | block << 16, // version 1.3
         model | kPrimariesBt709 << 8 | transfer << 16,
-        side | side << 8, // texel block, each side less 1
+        side | side << 8,   // texel block, each side less 1
         traits.block_bytes, // of plane 0, unpacked
-        0,                // no other planes
+        0,                  // no other planes
     };
     std::vector<std::byte> dfd(sizeof head + samples.size() * sizeof(Sample));
     std::memcpy(dfd.data(), head.data(), sizeof head);

@@ -12,7 +12,7 @@ namespace sward::grass {
 
 struct FormatTraits {
     TexelFormat format;
-    const char* name;          ///< as messages say it
+    const char* name; ///< as messages say it
     std::uint32_t vk_format;
     std::uint32_t type_size;   ///< of the values that a big-endian machine would have to swap
     int block_side;            ///< texels a side of a block
@@ -23,8 +23,8 @@ struct FormatTraits {
 /// Null when it is none of ours.
 [[nodiscard]] const FormatTraits* traits_of_vk(std::uint32_t vk_format);
 
-/// Data format descriptor with its total size in front (Khronos Data Format 1.3): linear or sRGB, BT.709
-/// primaries, straight alpha.
+/// Data format descriptor with its total size in front (Khronos Data Format 1.3): linear or sRGB,
+/// BT.709 primaries, straight alpha.
 [[nodiscard]] std::vector<std::byte> data_format_descriptor(TexelFormat format);
 
 } // namespace sward::grass

@@ -7,11 +7,12 @@
 
 namespace sward::grass {
 
-/// Raised whenever sets of the same preset change, in form or in content: belongs in the key of every cache of
-/// sets, and the reader refuses every other.
+/// Raised whenever sets of the same preset change, in form or in content: belongs in the key of
+/// every cache of sets, and the reader refuses every other.
 inline constexpr int kSetFormatVersion = 15;
 inline constexpr int kMaxVariants = 16;
-inline constexpr int kMaxFarLevels = 4; // as shared::kMaxFarLevels: the renderer has room for so many
+inline constexpr int kMaxFarLevels =
+    4; // as shared::kMaxFarLevels: the renderer has room for so many
 inline constexpr std::uint64_t kMaxSetJsonBytes = 1 << 20;
 inline constexpr const char* kSetJson = "set.json";
 inline constexpr const char* kBladesFile = "blades.glb";
@@ -30,7 +31,8 @@ inline constexpr const char* kCorrectionFile = "correction.ktx2";
 /// layers.ktx2, layers_1.ktx2, ...
 [[nodiscard]] std::string layers_file(int level);
 [[nodiscard]] std::string slices_file(int level);
-/// layers_shape.ktx2, layers_shape_1.ktx2, ...: beside the two above where a set keeps its shape planes as BC5.
+/// layers_shape.ktx2, layers_shape_1.ktx2, ...: beside the two above where a set keeps its shape
+/// planes as BC5.
 [[nodiscard]] std::string layers_shape_file(int level);
 [[nodiscard]] std::string slices_shape_file(int level);
 

@@ -55,7 +55,8 @@ TextureArray read_array(const SetJson& set, const fs::path& directory, const std
                         int images, TexelFormat format) {
     TextureArray array = decode_ktx2(verified_file(set, directory, name), directory / name);
     if (array.plain)
-        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "shape", "a single texture", "a 2D array");
+        throw base::input_error(ExitCode::kBadInput, directory / name, 0, "shape",
+                                "a single texture", "a 2D array");
     if (array.layers != images)
         throw base::input_error(ExitCode::kBadInput, directory / name, 0, "images",
                                 std::to_string(array.layers), std::to_string(images));

@@ -63,7 +63,7 @@ public:
         return value.get<std::string>();
     }
     const nlohmann::json& array(const nlohmann::json& object, const char* key, std::size_t low,
-                      std::size_t high) const {
+                                std::size_t high) const {
         const nlohmann::json& value = at(object, key);
         if (!value.is_array() || value.size() < low || value.size() > high)
             refuse(key, value.is_array() ? fmt::format("{} entries", value.size()) : "no list",
@@ -91,10 +91,12 @@ private:
 };
 
 /// A file of the set, whole and as its writer left it, or an error.
-[[nodiscard]] std::vector<std::byte> verified_file(const SetJson& set, const std::filesystem::path& directory, const std::string& name);
+[[nodiscard]] std::vector<std::byte>
+verified_file(const SetJson& set, const std::filesystem::path& directory, const std::string& name);
 
 /// One of its textures, of so many images in this format, or an error.
-[[nodiscard]] TextureArray read_array(const SetJson& set, const std::filesystem::path& directory, const std::string& name, int images,
+[[nodiscard]] TextureArray read_array(const SetJson& set, const std::filesystem::path& directory,
+                                      const std::string& name, int images,
                                       TexelFormat format = TexelFormat::kRgba8);
 
 /// What the far field's march reads; the set's head has been read.

@@ -74,12 +74,14 @@ void read_head(const SetJson& set, GrassSet& out) {
 }
 
 /// Metres above the ground, rising, within the canopy.
-std::vector<float> read_heights(const SetJson& set, const json& level, const char* key, std::size_t count, float canopy) {
+std::vector<float> read_heights(const SetJson& set, const json& level, const char* key,
+                                std::size_t count, float canopy) {
     std::vector<float> heights;
     for (const json& value : set.array(level, key, count, count)) {
         heights.push_back(static_cast<float>(set.in_range(value, key, 0, canopy * 1.0001)));
         if (heights.size() > 1 && heights.back() <= heights[heights.size() - 2])
-            set.refuse(key, fmt::format("{} after {}", heights.back(), heights[heights.size() - 2]), "rising heights");
+            set.refuse(key, fmt::format("{} after {}", heights.back(), heights[heights.size() - 2]),
+                       "rising heights");
     }
     return heights;
 }
@@ -96,7 +98,8 @@ void read_far(const SetJson& set, GrassSet& out) {
         far.slice_share = set.real(row, "slice_share", 0, 1);
         std::vector<float> shares;
         for (const json& share : set.array(row, "shell_share", levels, levels))
-            shares.push_back(static_cast<float>(set.in_range(share, "shell_share", 0, kMaxShellShare)));
+            shares.push_back(
+                static_cast<float>(set.in_range(share, "shell_share", 0, kMaxShellShare)));
         far.shell_share = shares[0];
         far.coarse_shares.assign(shares.begin() + 1, shares.end());
         if (far.elevation_deg >= last)
@@ -108,13 +111,15 @@ void read_far(const SetJson& set, GrassSet& out) {
 }
 
 /// Degrees from `low` to `high`, rising or falling throughout.
-std::vector<float> read_angles(const SetJson& set, const json& object, const char* key, double low, double high, bool rising) {
+std::vector<float> read_angles(const SetJson& set, const json& object, const char* key, double low,
+                               double high, bool rising) {
     std::vector<float> angles;
     for (const json& value : set.array(object, key, 1, kMaxLightSteps)) {
         angles.push_back(static_cast<float>(set.in_range(value, key, low, high)));
         const std::size_t n = angles.size();
         if (n > 1 && (rising ? angles[n - 1] <= angles[n - 2] : angles[n - 1] >= angles[n - 2]))
-            set.refuse(key, fmt::format("{} after {}", angles[n - 1], angles[n - 2]), rising ? "rising numbers" : "falling numbers");
+            set.refuse(key, fmt::format("{} after {}", angles[n - 1], angles[n - 2]),
+                       rising ? "rising numbers" : "falling numbers");
     }
     return angles;
 }
@@ -131,11 +136,14 @@ void read_far_light(const SetJson& set, const fs::path& directory, GrassSet& out
         set.refuse("leans", std::to_string(light.leans.front()), "0, at rest, first");
     const std::vector<float>& azimuths = light.lean_azimuths_deg;
     if (azimuths.front() != 0 || (azimuths.size() > 1 && azimuths.back() != 180))
-        set.refuse("lean_azimuths_deg", fmt::format("{} to {}", azimuths.front(), azimuths.back()), "0 to 180, or 0 alone");
+        set.refuse("lean_azimuths_deg", fmt::format("{} to {}", azimuths.front(), azimuths.back()),
+                   "0 to 180, or 0 alone");
     if (!std::ranges::equal(light.elevations_deg, out.far, {}, {}, &FarRow::elevation_deg))
-        set.refuse("elevations_deg", fmt::format("{} others", light.elevations_deg.size()), "those of far");
-    decode_far_light(decode_ktx2(verified_file(set, directory, kFarLightFile), directory / kFarLightFile),
-                     directory / kFarLightFile, light);
+        set.refuse("elevations_deg", fmt::format("{} others", light.elevations_deg.size()),
+                   "those of far");
+    decode_far_light(
+        decode_ktx2(verified_file(set, directory, kFarLightFile), directory / kFarLightFile),
+        directory / kFarLightFile, light);
 }
 
 /// One family of a level: both planes, from one file or, with `shape`, from two.
@@ -154,11 +162,11 @@ void read_family(const SetJson& set, const fs::path& directory, const FamilyFile
     *shape = read_array(set, directory, files.shape, files.images * 2, TexelFormat::kBc5);
     if (shape->width != ids.width || shape->height != ids.height ||
         shape->mips.size() != ids.mips.size())
-        throw base::input_error(ExitCode::kBadInput, directory / files.shape, 0, "size",
-                                fmt::format("{} x {}, {} mips", shape->width, shape->height,
-                                            shape->mips.size()),
-                                fmt::format("{} x {}, {} mips as in {}", ids.width, ids.height,
-                                            ids.mips.size(), files.planes));
+        throw base::input_error(
+            ExitCode::kBadInput, directory / files.shape, 0, "size",
+            fmt::format("{} x {}, {} mips", shape->width, shape->height, shape->mips.size()),
+            fmt::format("{} x {}, {} mips as in {}", ids.width, ids.height, ids.mips.size(),
+                        files.planes));
     if (mip_bytes(ids, 0) > kMaxArrayBytes / (2 * shared::kPlanes))
         throw base::input_error(ExitCode::kOverLimit, directory / files.planes, 0, "array",
                                 fmt::format("{} bytes of ids", mip_bytes(ids, 0)),
@@ -174,10 +182,12 @@ void read_levels(const SetJson& set, const fs::path& directory, GrassSet& out) {
         FarLevel level;
         level.layer_count = set.whole(entry, "layer_count", 1, kMaxImages);
         level.slice_count = set.whole(entry, "slice_count", 1, kMaxImages);
-        level.layer_edges = read_heights(set, entry, "layer_edges_m",
-                                         static_cast<std::size_t>(level.layer_count) + 1, out.canopy_m);
-        level.layer_heights = read_heights(set, entry, "layer_heights_m",
-                                           static_cast<std::size_t>(level.layer_count), out.canopy_m);
+        level.layer_edges =
+            read_heights(set, entry, "layer_edges_m",
+                         static_cast<std::size_t>(level.layer_count) + 1, out.canopy_m);
+        level.layer_heights =
+            read_heights(set, entry, "layer_heights_m", static_cast<std::size_t>(level.layer_count),
+                         out.canopy_m);
         // Names are ours, not the file's: nothing outside the directory can be asked for.
         const bool block = entry.contains("layers_shape");
         if (k > 0 && block != !out.levels[0].layers_shape.mips.empty())
@@ -234,7 +244,8 @@ GrassSet read_grass_set(const fs::path& directory) {
     read_head(set, out);
     read_far(set, out);
     out.variant_begin.assign(static_cast<std::size_t>(out.variants) + 1, 0);
-    if (set.whole(set.root(), "blades", 0, 1 << 30) > 0) // a far-only set has none, and no such file
+    if (set.whole(set.root(), "blades", 0, 1 << 30) >
+        0) // a far-only set has none, and no such file
         read_blades(set, directory, out);
     read_far_light(set, directory, out);
     read_march(set, directory, out);

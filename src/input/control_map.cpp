@@ -11,9 +11,19 @@ struct Named {
     std::string_view name;
     bool one_sided;
 };
-constexpr std::array<Named, kAxes> kNames = {{{"steer", false}, {"throttle", true}, {"brake", true}, {"clutch", true},
-                                              {"roll", false}, {"pitch", false}, {"yaw", false}, {"collective", true},
-                                              {"move_right", false}, {"move_up", false}, {"move_forward", false}, {"look_right", false}, {"look_up", false}}};
+constexpr std::array<Named, kAxes> kNames = {{{"steer", false},
+                                              {"throttle", true},
+                                              {"brake", true},
+                                              {"clutch", true},
+                                              {"roll", false},
+                                              {"pitch", false},
+                                              {"yaw", false},
+                                              {"collective", true},
+                                              {"move_right", false},
+                                              {"move_up", false},
+                                              {"move_forward", false},
+                                              {"look_right", false},
+                                              {"look_up", false}}};
 
 } // namespace
 
@@ -22,8 +32,10 @@ std::string_view name_of(Axis axis) {
 }
 
 std::optional<Axis> axis_of(std::string_view name) {
-    const auto found = std::find_if(kNames.begin(), kNames.end(), [&](const Named& named) { return named.name == name; });
-    return found == kNames.end() ? std::nullopt : std::optional(static_cast<Axis>(found - kNames.begin()));
+    const auto found = std::find_if(kNames.begin(), kNames.end(),
+                                    [&](const Named& named) { return named.name == name; });
+    return found == kNames.end() ? std::nullopt
+                                 : std::optional(static_cast<Axis>(found - kNames.begin()));
 }
 
 bool is_one_sided(Axis axis) {
@@ -31,7 +43,9 @@ bool is_one_sided(Axis axis) {
 }
 
 const DeviceBinding* ControlMap::find(std::string_view guid) const {
-    const auto found = std::find_if(devices.begin(), devices.end(), [&](const DeviceBinding& device) { return device.guid == guid; });
+    const auto found =
+        std::find_if(devices.begin(), devices.end(),
+                     [&](const DeviceBinding& device) { return device.guid == guid; });
     return found == devices.end() ? nullptr : &*found;
 }
 
@@ -58,7 +72,8 @@ void ControlReader::read(std::span<const DeviceReading> devices) {
             if (static_cast<std::size_t>(axis.number) >= device.axes.size())
                 continue;
             double& value = axes_[static_cast<std::size_t>(axis.axis)];
-            const double shaped = shape(axis, double(device.axes[static_cast<std::size_t>(axis.number)]));
+            const double shaped =
+                shape(axis, double(device.axes[static_cast<std::size_t>(axis.number)]));
             if (std::abs(shaped) > std::abs(value))
                 value = shaped;
         }
@@ -70,7 +85,8 @@ void ControlReader::read(std::span<const DeviceReading> devices) {
     before_ = now_;
 }
 
-void ControlReader::read_buttons(const DeviceBinding& binding, const DeviceReading& device, int copy) {
+void ControlReader::read_buttons(const DeviceBinding& binding, const DeviceReading& device,
+                                 int copy) {
     const auto before = before_.find({binding.guid, copy});
     now_[{binding.guid, copy}].assign(device.buttons.begin(), device.buttons.end());
     for (const ButtonBinding& button : binding.buttons) {
@@ -78,7 +94,8 @@ void ControlReader::read_buttons(const DeviceBinding& binding, const DeviceReadi
         if (number >= device.buttons.size() || device.buttons[number] == 0)
             continue;
         held_.push_back(button.action);
-        if (before != before_.end() && number < before->second.size() && before->second[number] == 0)
+        if (before != before_.end() && number < before->second.size() &&
+            before->second[number] == 0)
             pressed_.push_back(button.action);
     }
 }

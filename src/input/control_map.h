@@ -15,9 +15,19 @@ namespace sward::input {
 
 /// What an axis of a device can move.
 enum class Axis {
-    kSteer, kThrottle, kBrake, kClutch,                                 // on the ground
-    kRoll, kPitch, kYaw, kCollective,                                   // in the air; the throttle too
-    kMoveRight, kMoveUp, kMoveForward, kLookRight, kLookUp,             // the free camera
+    kSteer,
+    kThrottle,
+    kBrake,
+    kClutch, // on the ground
+    kRoll,
+    kPitch,
+    kYaw,
+    kCollective, // in the air; the throttle too
+    kMoveRight,
+    kMoveUp,
+    kMoveForward,
+    kLookRight,
+    kLookUp, // the free camera
     kCount
 };
 inline constexpr std::size_t kAxes = static_cast<std::size_t>(Axis::kCount);
@@ -28,11 +38,12 @@ inline constexpr std::size_t kAxes = static_cast<std::size_t>(Axis::kCount);
 [[nodiscard]] bool is_one_sided(Axis axis);
 
 struct AxisBinding {
-    int number = 0;         ///< of the device's axis, from 0
+    int number = 0; ///< of the device's axis, from 0
     Axis axis = Axis::kSteer;
     bool invert = false;
-    double dead_zone = 0.05; ///< of the way from where it rests to its end, in which nothing moves; 0 to 0.9
-    double curve = 1;        ///< power: above 1 finer about where it rests; 0.2 to 5
+    double dead_zone =
+        0.05; ///< of the way from where it rests to its end, in which nothing moves; 0 to 0.9
+    double curve = 1; ///< power: above 1 finer about where it rests; 0.2 to 5
 };
 struct ButtonBinding {
     int number = 0;
@@ -50,7 +61,8 @@ struct ControlMap {
     [[nodiscard]] const DeviceBinding* find(std::string_view guid) const;
 };
 
-/// What a device's axis at `raw` (-1 to 1; no number counts as 0) makes of its control: -1 to 1, or 0 to 1 where that is one-sided.
+/// What a device's axis at `raw` (-1 to 1; no number counts as 0) makes of its control: -1 to 1, or
+/// 0 to 1 where that is one-sided.
 [[nodiscard]] double shape(const AxisBinding& binding, double raw);
 
 /// A device as it is now. Of devices with the same GUID each is its own.
@@ -67,9 +79,11 @@ public:
 
     /// Devices without a binding, and numbers that a device does not have, say nothing.
     void read(std::span<const DeviceReading> devices);
-    /// Of several that move the same control the one farthest from its rest counts. 0 where none does.
+    /// Of several that move the same control the one farthest from its rest counts. 0 where none
+    /// does.
     [[nodiscard]] double axis(Axis axis) const { return axes_[static_cast<std::size_t>(axis)]; }
-    /// Actions whose buttons went down since the read before, in the order of devices and buttons. What is down as a device appears has not gone down.
+    /// Actions whose buttons went down since the read before, in the order of devices and buttons.
+    /// What is down as a device appears has not gone down.
     [[nodiscard]] const std::vector<std::string>& pressed() const { return pressed_; }
     [[nodiscard]] bool held(std::string_view action) const;
     [[nodiscard]] const ControlMap& map() const { return map_; }

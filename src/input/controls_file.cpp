@@ -44,7 +44,9 @@ AxisBinding read_axis(scene::TableReader& table) {
     const std::optional<Axis> axis = axis_of(moves);
     if (!axis) {
         const std::vector<std::string> known = axis_names();
-        throw table.error("moves", fmt::format("\"{}\"", moves), fmt::format("one of {}{}", fmt::join(known, ", "), perhaps(moves, known)));
+        throw table.error(
+            "moves", fmt::format("\"{}\"", moves),
+            fmt::format("one of {}{}", fmt::join(known, ", "), perhaps(moves, known)));
     }
     binding.axis = *axis;
     table.boolean("invert", binding.invert);
@@ -65,7 +67,8 @@ ButtonBinding read_button(scene::TableReader& table) {
 }
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
     return text;
 }
 
@@ -75,9 +78,12 @@ DeviceBinding read_device(scene::TableReader& table) {
     table.require("guid");
     table.text("guid", guid);
     device.guid = lower(guid);
-    const bool hex = std::all_of(device.guid.begin(), device.guid.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+    const bool hex = std::all_of(device.guid.begin(), device.guid.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+    });
     if (device.guid.size() != kGuidDigits || !hex)
-        throw table.error("guid", fmt::format("\"{}\"", base::printable(guid)), "32 hex digits, as `sward view --list-joysticks` prints them");
+        throw table.error("guid", fmt::format("\"{}\"", base::printable(guid)),
+                          "32 hex digits, as `sward view --list-joysticks` prints them");
     table.text("name", device.name);
     for (scene::TableReader& axis : table.tables("axis", kMostAxes))
         device.axes.push_back(read_axis(axis));
@@ -87,11 +93,14 @@ DeviceBinding read_device(scene::TableReader& table) {
     return device;
 }
 
-/// A name as TOML has it: base::printable has made control characters harmless, quotes and backslashes are left.
+/// A name as TOML has it: base::printable has made control characters harmless, quotes and
+/// backslashes are left.
 std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text)
-        out += (c == '"' || c == '\\') ? std::string{'\\', c} : std::string(1, static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c);
+        out += (c == '"' || c == '\\')
+                   ? std::string{'\\', c}
+                   : std::string(1, static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c);
     return out + "\"";
 }
 
@@ -104,7 +113,8 @@ ControlMap parse_controls(const std::string& text, const fs::path& file) {
     for (scene::TableReader& table : root.tables("device", kMostDevices)) {
         DeviceBinding device = read_device(table);
         if (map.find(device.guid) != nullptr)
-            throw table.error("guid", fmt::format("\"{}\" for the second time", device.guid), "each device once");
+            throw table.error("guid", fmt::format("\"{}\" for the second time", device.guid),
+                              "each device once");
         map.devices.push_back(std::move(device));
     }
     root.finish();
@@ -118,26 +128,34 @@ ControlMap load_controls(const fs::path& file) {
     return parse_controls(base::read_text(file, kMostBytes), file);
 }
 
-void check_actions(const ControlMap& map, std::span<const std::string> known, const fs::path& file) {
+void check_actions(const ControlMap& map, std::span<const std::string> known,
+                   const fs::path& file) {
     for (const DeviceBinding& device : map.devices)
         for (const ButtonBinding& button : device.buttons)
             if (std::find(known.begin(), known.end(), button.action) == known.end())
-                throw base::input_error(base::ExitCode::kBadInput, file, 0, fmt::format("device {}: button {}: does", device.guid, button.number),
-                                        fmt::format("\"{}\"", button.action),
-                                        fmt::format("one of {}{}", fmt::join(known, ", "), perhaps(button.action, known)));
+                throw base::input_error(
+                    base::ExitCode::kBadInput, file, 0,
+                    fmt::format("device {}: button {}: does", device.guid, button.number),
+                    fmt::format("\"{}\"", button.action),
+                    fmt::format("one of {}{}", fmt::join(known, ", "),
+                                perhaps(button.action, known)));
 }
 
 std::string format_controls(const ControlMap& map) {
-    std::string text = "# Joysticks, wheels and pedals for sward view. `sward view --list-joysticks` prints GUIDs; docs/controls.md explains the keys.\n";
+    std::string text = "# Joysticks, wheels and pedals for sward view. `sward view "
+                       "--list-joysticks` prints GUIDs; docs/controls.md explains the keys.\n";
     for (const DeviceBinding& device : map.devices) {
         text += fmt::format("\n[[device]]\nguid = \"{}\"\n", device.guid);
         if (!device.name.empty())
             text += fmt::format("name = {}\n", quoted(device.name));
         for (const AxisBinding& axis : device.axes)
-            text += fmt::format("\n[[device.axis]]\naxis = {}\nmoves = \"{}\"\ninvert = {}\ndead_zone = {}\ncurve = {}\n", axis.number, name_of(axis.axis),
-                                axis.invert, axis.dead_zone, axis.curve);
+            text += fmt::format("\n[[device.axis]]\naxis = {}\nmoves = \"{}\"\ninvert = "
+                                "{}\ndead_zone = {}\ncurve = {}\n",
+                                axis.number, name_of(axis.axis), axis.invert, axis.dead_zone,
+                                axis.curve);
         for (const ButtonBinding& button : device.buttons)
-            text += fmt::format("\n[[device.button]]\nbutton = {}\ndoes = \"{}\"\n", button.number, button.action);
+            text += fmt::format("\n[[device.button]]\nbutton = {}\ndoes = \"{}\"\n", button.number,
+                                button.action);
     }
     return text;
 }
@@ -146,8 +164,10 @@ void save_controls(const ControlMap& map, const fs::path& file) {
     std::error_code failed;
     fs::create_directories(file.parent_path(), failed);
     if (failed)
-        throw base::Error(base::ExitCode::kIo, fmt::format("{}: cannot write: found {}, expected a folder that can be made",
-                                                           base::printable(file.native(), 1024), failed.message()));
+        throw base::Error(
+            base::ExitCode::kIo,
+            fmt::format("{}: cannot write: found {}, expected a folder that can be made",
+                        base::printable(file.native(), 1024), failed.message()));
     base::write_file_atomic(file, format_controls(map));
 }
 

@@ -12,7 +12,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-
 namespace sward::input {
 namespace {
 
@@ -34,14 +33,17 @@ std::optional<int> event_number(const std::string& name) {
     int number = 0;
     if (!name.starts_with(kStart))
         return std::nullopt;
-    const auto [end, error] = std::from_chars(name.data() + kStart.size(), name.data() + name.size(), number);
-    return error == std::errc() && end == name.data() + name.size() ? std::optional(number) : std::nullopt;
+    const auto [end, error] =
+        std::from_chars(name.data() + kStart.size(), name.data() + name.size(), number);
+    return error == std::errc() && end == name.data() + name.size() ? std::optional(number)
+                                                                    : std::nullopt;
 }
 
 std::optional<DeviceFacts> ask(int handle) {
     DeviceFacts facts;
     std::array<char, 256> name{};
-    if (ioctl(handle, EVIOCGID, &facts.id) < 0 || ioctl(handle, EVIOCGBIT(0, sizeof facts.events), facts.events.data()) < 0 ||
+    if (ioctl(handle, EVIOCGID, &facts.id) < 0 ||
+        ioctl(handle, EVIOCGBIT(0, sizeof facts.events), facts.events.data()) < 0 ||
         ioctl(handle, EVIOCGBIT(EV_KEY, sizeof facts.keys), facts.keys.data()) < 0 ||
         ioctl(handle, EVIOCGBIT(EV_ABS, sizeof facts.axes), facts.axes.data()) < 0)
         return std::nullopt;
@@ -55,7 +57,8 @@ std::optional<DeviceFacts> ask(int handle) {
 std::string guid_of(const input_id& id, const std::string& name) {
     std::string guid = hex_pair(id.bustype) + "0000";
     if (id.vendor != 0 && id.product != 0 && id.version != 0)
-        return guid + hex_pair(id.vendor) + "0000" + hex_pair(id.product) + "0000" + hex_pair(id.version) + "0000";
+        return guid + hex_pair(id.vendor) + "0000" + hex_pair(id.product) + "0000" +
+               hex_pair(id.version) + "0000";
     for (std::size_t i = 0; i < kNamedBytes; ++i)
         guid += fmt::format("{:02x}", i < name.size() ? static_cast<unsigned char>(name[i]) : 0);
     return guid + "00";
@@ -64,7 +67,8 @@ std::string guid_of(const input_id& id, const std::string& name) {
 std::optional<Joystick> joystick_of(const DeviceFacts& facts) {
     if (!has(facts.events, EV_KEY) || !has(facts.events, EV_ABS))
         return std::nullopt;
-    if (has(facts.keys, BTN_TOUCH) || has(facts.keys, BTN_TOOL_PEN) || has(facts.keys, BTN_TOOL_FINGER) || has(facts.keys, BTN_MOUSE))
+    if (has(facts.keys, BTN_TOUCH) || has(facts.keys, BTN_TOOL_PEN) ||
+        has(facts.keys, BTN_TOOL_FINGER) || has(facts.keys, BTN_MOUSE))
         return std::nullopt;
     bool plays = false;
     for (const int code : {ABS_WHEEL, ABS_GAS, ABS_BRAKE, ABS_RUDDER, ABS_THROTTLE})

@@ -30,12 +30,16 @@ struct Joystick {
     std::filesystem::path node;          ///< /dev/input/event17
 };
 
-/// Bus, vendor, product and version; of a device that has none of these, bus and the start of its name.
+/// Bus, vendor, product and version; of a device that has none of these, bus and the start of its
+/// name.
 [[nodiscard]] std::string guid_of(const input_id& id, const std::string& name);
-/// Nothing where it is no joystick, wheel, pedals or gamepad: keyboards, mice, touch pads and tablets have axes too.
+/// Nothing where it is no joystick, wheel, pedals or gamepad: keyboards, mice, touch pads and
+/// tablets have axes too.
 [[nodiscard]] std::optional<Joystick> joystick_of(const DeviceFacts& facts);
 
-/// Those that are plugged in and may be read, by their nodes' numbers. Needs no window. `unreadable` counts nodes that this user may not open.
-[[nodiscard]] std::vector<Joystick> list_joysticks(int& unreadable, const std::filesystem::path& folder = "/dev/input");
+/// Those that are plugged in and may be read, by their nodes' numbers. Needs no window.
+/// `unreadable` counts nodes that this user may not open.
+[[nodiscard]] std::vector<Joystick>
+list_joysticks(int& unreadable, const std::filesystem::path& folder = "/dev/input");
 
 } // namespace sward::input

@@ -13,10 +13,10 @@ namespace sward::render {
 /// What is behind a Field: its source while it loads, then its state.
 struct FieldInside {
     FieldSource source;
-    std::optional<World> world;   ///< as far as it is read
-    int done = 0;                 ///< steps of prepare()
+    std::optional<World> world; ///< as far as it is read
+    int done = 0;               ///< steps of prepare()
     std::shared_ptr<FieldState> state;
-    bool wait_in_passes = false;  ///< SimulationSettings::wait_in_passes
+    bool wait_in_passes = false; ///< SimulationSettings::wait_in_passes
 };
 
 struct ViewInside {
@@ -27,8 +27,8 @@ struct ViewInside {
 
 /// What a frame of one view, drawn with these, wants of its simulation.
 [[nodiscard]] inline SimulationLimits limits_of(const FrameSettings& settings) {
-    return {settings.physics && draws_blades(settings), settings.simulated_radius_m, settings.most_simulated_bytes, settings.most_physics_steps,
-            settings.most_wind_steps};
+    return {settings.physics && draws_blades(settings), settings.simulated_radius_m,
+            settings.most_simulated_bytes, settings.most_physics_steps, settings.most_wind_steps};
 }
 
 /// The way of Sward's own programs and tests behind the face: tests' switches, AOVs, statistics.

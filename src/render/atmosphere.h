@@ -10,8 +10,10 @@
 
 namespace sward::render {
 
-/// Light of a sun through clear air: molecules, haze and ozone round a sphere; single scattering as an integral, the rest after Hillaire 2020
-/// ("A Scalable and Production Ready Sky and Atmosphere Rendering Technique"). docs/methods.md has what is ours in it. Three colours.
+/// Light of a sun through clear air: molecules, haze and ozone round a sphere; single scattering as
+/// an integral, the rest after Hillaire 2020
+/// ("A Scalable and Production Ready Sky and Atmosphere Rendering Technique"). docs/methods.md has
+/// what is ours in it. Three colours.
 class Atmosphere {
 public:
     /// `visibility_km` by Koschmieder, over the lowest ground. Makes its tables: some 20 ms.
@@ -21,11 +23,13 @@ public:
         shared::Light light{};
         shared::Air air{}; ///< extinctions over the lowest ground: see thinned()
     };
-    /// For a sun in this direction (unit, y up). Kept for as long as the sun stands still; some 0.5 ms where it does not.
+    /// For a sun in this direction (unit, y up). Kept for as long as the sun stands still; some 0.5
+    /// ms where it does not.
     const Day& at(const glm::dvec3& to_sun);
     /// The air for an eye so high over the lowest ground (m).
     [[nodiscard]] static shared::Air thinned(shared::Air air, double height_m);
-    /// Share of the sun's light that comes through to a height (m) from where it stands so high (sine over the level), 0 behind the Earth.
+    /// Share of the sun's light that comes through to a height (m) from where it stands so high
+    /// (sine over the level), 0 behind the Earth.
     [[nodiscard]] glm::dvec3 sunlight(double height_m, double sine) const;
 
 private:

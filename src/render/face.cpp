@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Behind <sward/field.h> and <sward/view.h>: every call holds the host's state, and throws the public error alone.
+// Behind <sward/field.h> and <sward/view.h>: every call holds the host's state, and throws the
+// public error alone.
 #include <cmath>
 
 #include <fmt/format.h>
@@ -15,7 +16,8 @@ namespace sward {
 
 namespace {
 
-/// Runs a call of the face. base::Error becomes the public class, with the kind that its exit code stands for.
+/// Runs a call of the face. base::Error becomes the public class, with the kind that its exit code
+/// stands for.
 template<class Call> auto faced(Call call) {
     try {
         return call();
@@ -23,7 +25,8 @@ template<class Call> auto faced(Call call) {
         throw Error(static_cast<ErrorKind>(static_cast<int>(error.code()) - 1), error.what());
     }
 }
-static_assert(static_cast<int>(ErrorKind::kInside) == static_cast<int>(base::ExitCode::kFailure) - 1 &&
+static_assert(static_cast<int>(ErrorKind::kInside) ==
+                  static_cast<int>(base::ExitCode::kFailure) - 1 &&
               static_cast<int>(ErrorKind::kNoGpu) == static_cast<int>(base::ExitCode::kNoGpu) - 1);
 
 /// The same for one that draws.
@@ -34,7 +37,9 @@ template<class Call> auto drawn(Call call) {
     });
 }
 
-base::Error bad(const std::string& message) { return {base::ExitCode::kBadInput, message}; }
+base::Error bad(const std::string& message) {
+    return {base::ExitCode::kBadInput, message};
+}
 
 void finish(render::FieldInside& field) {
     while (render::load_step(field) > 0) {
@@ -49,18 +54,26 @@ render::FieldState& ready(const std::shared_ptr<render::FieldInside>& field) {
 }
 
 render::SimulationSettings settings_of(const SimulationLimits& limits, bool wait) {
-    if (!(limits.living_radius_m >= 0 && limits.living_radius_m <= 1e6) || limits.most_blade_steps < 0 || limits.most_wind_steps < 0) {
-        throw bad(fmt::format("limits: found a radius of {} m, {} and {} steps, expected 0 to 1e6 m and steps of 0 or more", limits.living_radius_m,
-                              limits.most_blade_steps, limits.most_wind_steps));
+    if (!(limits.living_radius_m >= 0 && limits.living_radius_m <= 1e6) ||
+        limits.most_blade_steps < 0 || limits.most_wind_steps < 0) {
+        throw bad(fmt::format("limits: found a radius of {} m, {} and {} steps, expected 0 to 1e6 "
+                              "m and steps of 0 or more",
+                              limits.living_radius_m, limits.most_blade_steps,
+                              limits.most_wind_steps));
     }
-    return {limits.living_blades, limits.living_radius_m, limits.most_living_bytes, limits.most_blade_steps, limits.most_wind_steps, wait};
+    return {limits.living_blades,    limits.living_radius_m, limits.most_living_bytes,
+            limits.most_blade_steps, limits.most_wind_steps, wait};
 }
 
 } // namespace
 
-const char* version() { return SWARD_VERSION; }
+const char* version() {
+    return SWARD_VERSION;
+}
 
-Field::Field(FieldSource source) : inside_(std::make_shared<render::FieldInside>()) { inside_->source = std::move(source); }
+Field::Field(FieldSource source) : inside_(std::make_shared<render::FieldInside>()) {
+    inside_->source = std::move(source);
+}
 Field::~Field() = default;
 Field::Field(Field&&) noexcept = default;
 Field& Field::operator=(Field&&) noexcept = default;
@@ -69,11 +82,13 @@ double Field::prepare() {
     return drawn([&] { return render::load_step(*inside_); });
 }
 
-void Field::simulate(double time_s, std::span<const glm::dvec3> eyes, const SimulationLimits& limits) {
+void Field::simulate(double time_s, std::span<const glm::dvec3> eyes,
+                     const SimulationLimits& limits) {
     drawn([&] {
         for (const glm::dvec3& eye : eyes) {
             if (!std::isfinite(eye.x) || !std::isfinite(eye.y) || !std::isfinite(eye.z)) {
-                throw bad(fmt::format("simulate: eyes: found {}, {}, {}, expected finite numbers", eye.x, eye.y, eye.z));
+                throw bad(fmt::format("simulate: eyes: found {}, {}, {}, expected finite numbers",
+                                      eye.x, eye.y, eye.z));
             }
         }
         if (!(time_s >= 0 && time_s <= 1e9)) {
@@ -86,7 +101,9 @@ void Field::simulate(double time_s, std::span<const glm::dvec3> eyes, const Simu
 void Field::set_sun(const Sun& sun) {
     drawn([&] {
         if (!(std::abs(sun.azimuth_deg) <= 1e6) || !(std::abs(sun.elevation_deg) <= 90)) {
-            throw bad(fmt::format("sun: found azimuth {}, elevation {} degrees, expected any and -90 to 90", sun.azimuth_deg, sun.elevation_deg));
+            throw bad(fmt::format(
+                "sun: found azimuth {}, elevation {} degrees, expected any and -90 to 90",
+                sun.azimuth_deg, sun.elevation_deg));
         }
         ready(inside_).world.scene.sun = {sun.azimuth_deg, sun.elevation_deg};
     });
@@ -100,7 +117,8 @@ void Field::set_arrows(std::span<const Arrow> arrows) {
     drawn([&] {
         std::vector<scene::WindArrow> all;
         for (const Arrow& arrow : arrows) {
-            all.push_back({arrow.id, arrow.parent, arrow.root, arrow.tip, arrow.strength_mps, arrow.radius_m, arrow.start_s, arrow.end_s});
+            all.push_back({arrow.id, arrow.parent, arrow.root, arrow.tip, arrow.strength_mps,
+                           arrow.radius_m, arrow.start_s, arrow.end_s});
         }
         render::check_arrows(all);
         ready(inside_).sources().set_arrows(std::move(all));
@@ -149,7 +167,8 @@ View::View(Field& field)
     : inside_(drawn([&] {
           std::shared_ptr<render::FieldInside> of = render::Access::share(field);
           static_cast<void>(ready(of));
-          return std::unique_ptr<render::ViewInside>(new render::ViewInside{of, {}, render::ViewState(of->state)});
+          return std::unique_ptr<render::ViewInside>(
+              new render::ViewInside{of, {}, render::ViewState(of->state)});
       })) {}
 
 View::~View() {
@@ -164,7 +183,8 @@ View& View::operator=(View&&) noexcept = default;
 void View::set_quality(const Quality& quality) {
     faced([&] {
         if (!(quality.exposure > 0 && quality.exposure <= 1e6f)) {
-            throw bad(fmt::format("quality: exposure: found {}, expected a number above 0", quality.exposure));
+            throw bad(fmt::format("quality: exposure: found {}, expected a number above 0",
+                                  quality.exposure));
         }
         inside_->settings.samples = quality.samples;
         inside_->settings.exposure = quality.exposure;
@@ -176,7 +196,8 @@ void View::draw(const Camera& camera, const Target& target) {
         render::FrameSettings& settings = inside_->settings;
         settings.width = target.width;
         settings.height = target.height;
-        render::HostTextures host{target.colour, target.depth, target.scene_colour, target.scene_depth};
+        render::HostTextures host{target.colour, target.depth, target.scene_colour,
+                                  target.scene_depth};
         render::check_textures(host, target.width, target.height);
         inside_->state.draw(camera, settings, host);
         if (target.framebuffer) {

@@ -53,7 +53,8 @@ void free_texels(grass::GrassSet& set) {
     }
 }
 
-std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double time_s, double step_s) {
+std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double time_s,
+                                   double step_s) {
     std::vector<tracks::Ball> out;
     if (colliders.any()) {
         for (const blades::MovingSphere& sphere : colliders.at(time_s, step_s)) {
@@ -66,29 +67,46 @@ std::vector<tracks::Ball> balls_of(const blades::Colliders& colliders, double ti
 } // namespace
 
 FieldState::FieldState(World inputs)
-    : world(with_ground(std::move(inputs))), response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)),
-      surface(world.elevation, world.scene.terrain.detail_m), ground(std::make_shared<terrain::GroundSource>(surface, world.mask)),
+    : world(with_ground(std::move(inputs))),
+      response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)),
+      surface(world.elevation, world.scene.terrain.detail_m),
+      ground(std::make_shared<terrain::GroundSource>(surface, world.mask)),
       atmosphere(world.scene.air.visibility_km),
       wind(world.scene.wind, response,
-           std::make_unique<wind::Sources>(world.scene, world.meshes, [this](double x, double z) { return surface.height(x, z); })),
-      march_textures(world.grass.march), far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass), far_appearance(world.grass),
+           std::make_unique<wind::Sources>(
+               world.scene, world.meshes,
+               [this](double x, double z) { return surface.height(x, z); })),
+      march_textures(world.grass.march),
+      far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass),
+      far_appearance(world.grass),
       blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))),
-      colliders(world.scene, world.spheres, [this](double x, double z) { return surface.height(x, z); }), objects(world),
-      mean_blade_width_m(mean_width(world.grass)), frame_buffer_(sizeof(shared::FrameConstants)), march_light_(world.grass, !world.surface.triangles.empty()) {
+      colliders(world.scene, world.spheres,
+                [this](double x, double z) { return surface.height(x, z); }),
+      objects(world), mean_blade_width_m(mean_width(world.grass)),
+      frame_buffer_(sizeof(shared::FrameConstants)),
+      march_light_(world.grass, !world.surface.triangles.empty()) {
     if (!world.surface.triangles.empty()) {
-        mesh_ground = std::make_unique<MeshGround>(world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
-        mean_blade_width_m = mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
+        mesh_ground = std::make_unique<MeshGround>(
+            world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
+        mean_blade_width_m =
+            mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
         world.surface = {};
     } else {
         land_shadow = std::make_unique<terrain::LandShadow>(surface.elevation());
     }
     if (world.scene.tracks) {
-        tracks = std::make_unique<tracks::Tracks>(world.scene, world.grass.canopy_m,
-                                                  tracks::Tracks::Inputs{[this](double x, double z) { return surface.height(x, z); },
-                                                                         [this](double then_s, double step_s) { return balls_of(colliders, then_s, step_s); }});
+        tracks = std::make_unique<tracks::Tracks>(
+            world.scene, world.grass.canopy_m,
+            tracks::Tracks::Inputs{[this](double x, double z) { return surface.height(x, z); },
+                                   [this](double then_s, double step_s) {
+                                       return balls_of(colliders, then_s, step_s);
+                                   }});
         if (!world.scene.tracks->mask.empty()) {
             const std::string name = base::printable(world.scene.tracks->mask.native());
-            tracks->begin_with(tracks::painted(*world.scene.tracks, {world.lying, world.lying_way, world.elevation.extent_m(), name}), name);
+            tracks->begin_with(
+                tracks::painted(*world.scene.tracks,
+                                {world.lying, world.lying_way, world.elevation.extent_m(), name}),
+                name);
             world.lying = world.lying_way = {};
         }
     }
@@ -98,7 +116,8 @@ FieldState::FieldState(World inputs)
 DrawPasses& FieldState::passes(bool aov) {
     auto& slot = aov ? aov_passes_ : plain_passes_;
     if (!slot) {
-        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh(), ground->land_frame.x > 0);
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh(),
+                                            ground->land_frame.x > 0);
     }
     return *slot;
 }
@@ -109,21 +128,27 @@ blades::LivingBlades* FieldState::wake(const SimulationSettings& settings, int e
         return nullptr;
     }
     rooms_ = std::max(rooms_, eyes);
-    const blades::LivingBlades::Settings wanted{{settings.simulated_radius_m, settings.most_simulated_bytes, rooms_}};
+    const blades::LivingBlades::Settings wanted{
+        {settings.simulated_radius_m, settings.most_simulated_bytes, rooms_}};
     const auto* present = living();
     const bool fits = present && present->settings().pages.radius_m == wanted.pages.radius_m &&
-                      present->settings().pages.most_bytes == wanted.pages.most_bytes && present->settings().pages.eyes == wanted.pages.eyes;
+                      present->settings().pages.most_bytes == wanted.pages.most_bytes &&
+                      present->settings().pages.eyes == wanted.pages.eyes;
     if (mesh_ground) {
-        surface_simulation = fits ? std::move(surface_simulation) : mesh_ground->grass().simulation(wanted);
+        surface_simulation =
+            fits ? std::move(surface_simulation) : mesh_ground->grass().simulation(wanted);
         return surface_simulation.get();
     }
-    simulation = fits ? std::move(simulation) : std::make_unique<blades::Simulation>(world.grass, response, wanted);
+    simulation = fits ? std::move(simulation)
+                      : std::make_unique<blades::Simulation>(world.grass, response, wanted);
     return simulation.get();
 }
 
-void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const SimulationSettings& settings) {
+void FieldState::simulate(double time, std::span<const glm::dvec3> eyes,
+                          const SimulationSettings& settings) {
     if (eyes.empty()) {
-        throw base::Error(base::ExitCode::kBadInput, "simulate: eyes: found none, expected one or more");
+        throw base::Error(base::ExitCode::kBadInput,
+                          "simulate: eyes: found none, expected one or more");
     }
     timers.begin_frame(settings.wait_in_passes);
     track(time, eyes);
@@ -147,7 +172,9 @@ void FieldState::simulate(double time, std::span<const glm::dvec3> eyes, const S
         const Shot shot = make_shot(*clipmap_, lens, {}, glm::dvec2(0));
         frame_buffer_.upload(&shot.constants, sizeof(shot.constants));
         frame_buffer_.bind_uniform(BIND_FRAME);
-        alive->advance(time, {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps, settings.most_wind_steps, &timers, eyes.subspan(1)});
+        alive->advance(time,
+                       {wind, surface, colliders, eye, shot.anchor, settings.most_physics_steps,
+                        settings.most_wind_steps, &timers, eyes.subspan(1)});
     }
     time_s = time;
     eyes_.assign(eyes.begin(), eyes.end());
@@ -192,28 +219,37 @@ void FieldState::follow_shadow() {
 
 void FieldState::set_density(double density) {
     if (!(density >= 0 && density <= 1)) {
-        throw base::Error(base::ExitCode::kBadInput, fmt::format("density: found {}, expected 0 to 1", density));
+        throw base::Error(base::ExitCode::kBadInput,
+                          fmt::format("density: found {}, expected 0 to 1", density));
     }
     if (mesh_ground) {
-        throw base::Error(base::ExitCode::kUsage, "density: found a scene on a mesh, whose blades are placed for good, expected one on elevation");
+        throw base::Error(base::ExitCode::kUsage, "density: found a scene on a mesh, whose blades "
+                                                  "are placed for good, expected one on elevation");
     }
     world.scene.grass.density = density;
 }
 
 void FieldState::check_object(std::size_t object, const glm::dmat4& world_from_object) const {
     if (object >= objects.count()) {
-        throw base::Error(base::ExitCode::kBadInput, fmt::format("object: found {}, expected one of the scene's {}, counted from 0", object, objects.count()));
+        throw base::Error(
+            base::ExitCode::kBadInput,
+            fmt::format("object: found {}, expected one of the scene's {}, counted from 0", object,
+                        objects.count()));
     }
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             if (!std::isfinite(world_from_object[column][row])) {
-                throw base::Error(base::ExitCode::kBadInput, fmt::format("object {}: found a matrix with infinity or no number, expected finite ones", object));
+                throw base::Error(base::ExitCode::kBadInput,
+                                  fmt::format("object {}: found a matrix with infinity or no "
+                                              "number, expected finite ones",
+                                              object));
             }
         }
     }
 }
 
-void FieldState::set_object(std::size_t object, const glm::dmat4& world_from_object, double when_s) {
+void FieldState::set_object(std::size_t object, const glm::dmat4& world_from_object,
+                            double when_s) {
     objects.place(object, world_from_object);
     colliders.set_body(object, world_from_object, when_s);
 }
@@ -273,13 +309,40 @@ void FieldState::reload(std::vector<std::string>& failures) {
         }
     }
     ++reloads;
-    for (auto part : {+[](FieldState& f) { f.ground->height_program.reload(); f.ground->surface_program.reload(); }, +[](FieldState& f) { f.cull.reload(); },
-                      +[](FieldState& f) { if (f.sample_cull) { f.sample_cull->reload(); } },
-                      +[](FieldState& f) { if (f.simulation) { f.simulation->pass().reload(); } },
-                      +[](FieldState& f) { if (f.surface_simulation) { f.surface_simulation->pass().reload(); } },
-                      +[](FieldState& f) { if (f.mesh_ground) { f.mesh_ground->grass().reload(); } },
-                      +[](FieldState& f) { if (f.tracks) { f.tracks->reload(); } },
-                      +[](FieldState& f) { f.wind.reload(); f.sources().reload(); }}) {
+    for (auto part : {+[](FieldState& f) {
+                          f.ground->height_program.reload();
+                          f.ground->surface_program.reload();
+                      },
+                      +[](FieldState& f) { f.cull.reload(); },
+                      +[](FieldState& f) {
+                          if (f.sample_cull) {
+                              f.sample_cull->reload();
+                          }
+                      },
+                      +[](FieldState& f) {
+                          if (f.simulation) {
+                              f.simulation->pass().reload();
+                          }
+                      },
+                      +[](FieldState& f) {
+                          if (f.surface_simulation) {
+                              f.surface_simulation->pass().reload();
+                          }
+                      },
+                      +[](FieldState& f) {
+                          if (f.mesh_ground) {
+                              f.mesh_ground->grass().reload();
+                          }
+                      },
+                      +[](FieldState& f) {
+                          if (f.tracks) {
+                              f.tracks->reload();
+                          }
+                      },
+                      +[](FieldState& f) {
+                          f.wind.reload();
+                          f.sources().reload();
+                      }}) {
         try {
             part(*this);
         } catch (const base::Error& error) {

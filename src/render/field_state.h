@@ -42,19 +42,25 @@ struct Shot {
     terrain::Detail detail;
 };
 
-/// What sward::Field holds: a world, its simulation and its textures, for any number of views. Needs the context that it was made in, or one
-/// that shares with it.
+/// What sward::Field holds: a world, its simulation and its textures, for any number of views.
+/// Needs the context that it was made in, or one that shares with it.
 struct FieldState {
     explicit FieldState(World inputs);
 
-    /// Pages of living blades in and out, whole steps of the wind and the blades up to the time (s, from 0): once a frame, for the views that draw
-    /// it from these eyes (world metres; one or more). Throws Error(kBadInput) for a time or place that is not finite.
-    void simulate(double time_s, std::span<const glm::dvec3> eyes, const SimulationSettings& settings);
+    /// Pages of living blades in and out, whole steps of the wind and the blades up to the time (s,
+    /// from 0): once a frame, for the views that draw it from these eyes (world metres; one or
+    /// more). Throws Error(kBadInput) for a time or place that is not finite.
+    void simulate(double time_s, std::span<const glm::dvec3> eyes,
+                  const SimulationSettings& settings);
 
-    /// Constants of a picture of the field as it now is, whose ground is `clipmap`'s. `jitter` in pixels.
-    [[nodiscard]] Shot make_shot(const terrain::Clipmap& clipmap, const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) const;
+    /// Constants of a picture of the field as it now is, whose ground is `clipmap`'s. `jitter` in
+    /// pixels.
+    [[nodiscard]] Shot make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
+                                 const FrameSettings& settings, glm::dvec2 jitter) const;
     /// The blades that live since simulate(); null where none does.
-    [[nodiscard]] const blades::LivingBlades* living() const { return lives_ ? asleep_or_living() : nullptr; }
+    [[nodiscard]] const blades::LivingBlades* living() const {
+        return lives_ ? asleep_or_living() : nullptr;
+    }
     [[nodiscard]] DrawPasses& passes(bool aov);
     /// The march's light, brought up to date: by a part a frame, whichever view asks first.
     void follow_light(const shared::Light& light, const shared::WindField& wind);
@@ -69,20 +75,23 @@ struct FieldState {
     /// As at `when_s`. Before: check_object.
     void set_object(std::size_t object, const glm::dmat4& world_from_object, double when_s);
 
-    /// Recompiles programs whose source changed; adds messages of those that failed (the old program stays).
+    /// Recompiles programs whose source changed; adds messages of those that failed (the old
+    /// program stays).
     void reload(std::vector<std::string>& failures);
     /// Adds what the simulation counted and took.
     void add_stats(FrameStats& stats) const;
 
     /// The wind's inputs, which the field made.
-    [[nodiscard]] wind::Sources& sources() const { return static_cast<wind::Sources&>(*wind.inputs()); }
+    [[nodiscard]] wind::Sources& sources() const {
+        return static_cast<wind::Sources&>(*wind.inputs());
+    }
     [[nodiscard]] bool on_mesh() const { return mesh_ground != nullptr; }
 
     World world;
     double response; ///< bend per m/s of the set's mean blade
     terrain::Surface surface;
     std::shared_ptr<terrain::GroundSource> ground;
-    mutable Atmosphere atmosphere; ///< keeps the last sun's light
+    mutable Atmosphere atmosphere;                    ///< keeps the last sun's light
     std::unique_ptr<terrain::LandShadow> land_shadow; ///< of a scene on elevation
     wind::Wind wind;
     shells::MarchTextures march_textures;
@@ -91,11 +100,14 @@ struct FieldState {
     terrain::BlockMesh block_mesh;
     gl::Buffer blade_records;
     blades::CullPass cull;
-    std::unique_ptr<blades::SampleCull> sample_cull; ///< of the reference; made for the first picture that wants it
+    std::unique_ptr<blades::SampleCull>
+        sample_cull; ///< of the reference; made for the first picture that wants it
     blades::Colliders colliders;
     std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field on elevation
-    std::unique_ptr<blades::Simulation> simulation; ///< of the set's blades; made for the first frame that wants it
-    std::unique_ptr<blades::SurfaceSimulation> surface_simulation; ///< of a mesh's; goes before its ground
+    std::unique_ptr<blades::Simulation>
+        simulation; ///< of the set's blades; made for the first frame that wants it
+    std::unique_ptr<blades::SurfaceSimulation>
+        surface_simulation;                 ///< of a mesh's; goes before its ground
     std::unique_ptr<tracks::Tracks> tracks; ///< of a scene that has some
     Objects objects;
     mutable gl::PassTimers timers; ///< of simulate(); reading their queries changes nothing
@@ -103,21 +115,24 @@ struct FieldState {
     double mean_blade_width_m = 0;
     const ViewState* counted = nullptr; ///< the view drawn last: the passes' counters are its
     int reloads = 0;                    ///< of the shaders that clipmaps share
-    bool light_at_once = false;         ///< a change of light is followed whole by the next picture: none then depends on how many were drawn before
+    bool light_at_once = false; ///< a change of light is followed whole by the next picture: none
+                                ///< then depends on how many were drawn before
 
 private:
     [[nodiscard]] blades::LivingBlades* wake(const SimulationSettings& settings, int eyes);
     [[nodiscard]] double away_from_eyes(glm::dvec3 place) const;
     [[nodiscard]] const blades::LivingBlades* asleep_or_living() const {
-        return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get()) : simulation.get();
+        return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get())
+                           : simulation.get();
     }
 
-    void light_shot(shared::FrameConstants& out, const glm::dvec3& eye, const glm::dvec2& anchor) const;
+    void light_shot(shared::FrameConstants& out, const glm::dvec3& eye,
+                    const glm::dvec2& anchor) const;
     void track(double time_s, std::span<const glm::dvec3> eyes);
 
     bool lives_ = false; ///< the last simulate() wanted it
     std::vector<glm::dvec3> eyes_;
-    int rooms_ = 0; ///< for so many eyes' living blades
+    int rooms_ = 0;                             ///< for so many eyes' living blades
     std::unique_ptr<terrain::Clipmap> clipmap_; ///< the ground that blades meet colliders on
     gl::Buffer frame_buffer_;
     std::unique_ptr<DrawPasses> plain_passes_, aov_passes_;
@@ -127,10 +142,13 @@ private:
 
 /// Whether the reference's blades are culled by its samples, so many a pixel.
 [[nodiscard]] inline bool samples_decide(const FrameSettings& settings, int samples) {
-    return settings.tiers == Tiers::kReference && settings.cull.samples && samples <= shared::kMostSamples;
+    return settings.tiers == Tiers::kReference && settings.cull.samples &&
+           samples <= shared::kMostSamples;
 }
 
 /// Whether a picture shows blades that may live.
-[[nodiscard]] inline bool draws_blades(const FrameSettings& settings) { return settings.blades && settings.tiers != Tiers::kShells; }
+[[nodiscard]] inline bool draws_blades(const FrameSettings& settings) {
+    return settings.blades && settings.tiers != Tiers::kShells;
+}
 
 } // namespace sward::render

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture, top to bottom: one line a pass. Before it, once for all views: FieldState::simulate (wind, pages, physics). After it: the overlay,
-// which is the host's.
+// A picture, top to bottom: one line a pass. Before it, once for all views: FieldState::simulate
+// (wind, pages, physics). After it: the overlay, which is the host's.
 #include "render/frame.h"
 
 #include "render/pass_names.h"

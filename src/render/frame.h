@@ -9,10 +9,12 @@
 
 namespace sward::render {
 
-/// One picture of a view in the making: the list of its passes (frame.cpp) and what each of them does (passes.cpp).
+/// One picture of a view in the making: the list of its passes (frame.cpp) and what each of them
+/// does (passes.cpp).
 class Frame {
 public:
-    Frame(ViewState& view, const Camera& camera, const FrameSettings& settings, const HostTextures& host);
+    Frame(ViewState& view, const Camera& camera, const FrameSettings& settings,
+          const HostTextures& host);
     void draw();
 
 private:
@@ -25,11 +27,19 @@ private:
     [[nodiscard]] bool on_elevation() const { return !f_.on_mesh(); }
     [[nodiscard]] bool on_mesh() const { return f_.on_mesh(); }
     [[nodiscard]] bool has_blades() const { return draws_blades(s_); }
-    [[nodiscard]] bool has_far() const { return s_.tiers == Tiers::kAll || s_.tiers == Tiers::kShells; }
-    [[nodiscard]] bool sampled() const { return on_elevation() && samples_decide(s_, v_.targets.samples()); }
+    [[nodiscard]] bool has_far() const {
+        return s_.tiers == Tiers::kAll || s_.tiers == Tiers::kShells;
+    }
+    [[nodiscard]] bool sampled() const {
+        return on_elevation() && samples_decide(s_, v_.targets.samples());
+    }
     [[nodiscard]] bool marches() const;
-    [[nodiscard]] bool rasterises() const { return on_elevation() && has_far() && s_.far != FarScheme::kMarch; }
-    [[nodiscard]] const blades::LivingBlades* living() const { return s_.physics && has_blades() ? f_.living() : nullptr; }
+    [[nodiscard]] bool rasterises() const {
+        return on_elevation() && has_far() && s_.far != FarScheme::kMarch;
+    }
+    [[nodiscard]] const blades::LivingBlades* living() const {
+        return s_.physics && has_blades() ? f_.living() : nullptr;
+    }
 
     // Between passes.
     void begin_picture();
@@ -38,7 +48,9 @@ private:
     void begin_scene();
     bool next_batch();
     bool next_gathered();
-    [[nodiscard]] bool begins_round() const { return sampled() && has_blades() && (picture_ == 0 || picture_ >= round_end_); }
+    [[nodiscard]] bool begins_round() const {
+        return sampled() && has_blades() && (picture_ == 0 || picture_ >= round_end_);
+    }
 
     // The passes, in order.
     void update_clipmap();
@@ -54,11 +66,13 @@ private:
     void select_blades();
     void cull_batch();
     void draw_batch();
-    void choose_blades(); ///< of the reference, these four in the place of the three above; this one for a round of pictures
+    void choose_blades(); ///< of the reference, these four in the place of the three above; this
+                          ///< one for a round of pictures
     void gather_batch();
     void sift_batch();
     void draw_gathered();
-    void draw_surface_blades(); ///< opens the passes of culling and drawing in turn, as the two above are run
+    void draw_surface_blades(); ///< opens the passes of culling and drawing in turn, as the two
+                                ///< above are run
     void draw_shells();
     void draw_slices();
     void draw_sky();
@@ -79,11 +93,11 @@ private:
     int picture_ = 0, pictures_ = 1; ///< jittered ones that are averaged
     Shot shot_;
     std::vector<terrain::VisibleBlock> blocks_;
-    bool fine_ = false;              ///< ground finer than the clipmap
+    bool fine_ = false; ///< ground finer than the clipmap
     shells::FarList far_;
-    shared::FarShares shares_{}; ///< of the raster schemes
+    shared::FarShares shares_{};          ///< of the raster schemes
     int round_begin_ = 0, round_end_ = 0; ///< pictures that the choice of blades holds for
-    std::size_t batch_ = 0;          ///< one more than the batch of blades in the making
+    std::size_t batch_ = 0;               ///< one more than the batch of blades in the making
 };
 
 } // namespace sward::render

@@ -12,11 +12,13 @@ namespace sward::render {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
-// Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at the hand-over, since a
-// widened blade covers more than its shell image would.
+// Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at
+// the hand-over, since a widened blade covers more than its shell image would.
 constexpr float kWidthMin_px = 0.1f, kWidthSpan_px = 0.35f;
-constexpr float kLivingFade = 0.8f; // of the reach of living blades: beyond, their pose goes to the grouped one, in which they begin
-constexpr float kSegment_px = 18; // longer is cheaper; a blade's curve is nearly flat over so many pixels
+constexpr float kLivingFade = 0.8f; // of the reach of living blades: beyond, their pose goes to the
+                                    // grouped one, in which they begin
+constexpr float kSegment_px =
+    18; // longer is cheaper; a blade's curve is nearly flat over so many pixels
 
 glm::dvec3 direction(double yaw_deg, double pitch_deg) {
     const double yaw = yaw_deg * kDegree, pitch = pitch_deg * kDegree;
@@ -31,10 +33,15 @@ glm::dmat4 clip_from_eye(const Lens& lens, const FrameSettings& settings, glm::d
     return projection * lens.turn;
 }
 
-/// Bands by tier: the reference and --tiers blades draw geometry to one distance and hand nothing on.
-void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const FrameSettings& settings) {
-    const bool geometry_only = settings.tiers == Tiers::kBlades || settings.tiers == Tiers::kReference;
-    const auto reach = static_cast<float>(settings.tiers == Tiers::kReference ? settings.reference_distance_m : settings.blades_distance_m);
+/// Bands by tier: the reference and --tiers blades draw geometry to one distance and hand nothing
+/// on.
+void fill_bands(shared::FrameConstants& out, const lod::Bands& bands,
+                const FrameSettings& settings) {
+    const bool geometry_only =
+        settings.tiers == Tiers::kBlades || settings.tiers == Tiers::kReference;
+    const auto reach =
+        static_cast<float>(settings.tiers == Tiers::kReference ? settings.reference_distance_m
+                                                               : settings.blades_distance_m);
     const glm::vec2 drawn = geometry_only ? glm::vec2(reach, reach * 1.001f) : bands.handover;
     out.handover_band = drawn;
     out.width_least_px = kWidthMin_px;
@@ -54,7 +61,8 @@ void fill_bands(shared::FrameConstants& out, const lod::Bands& bands, const Fram
     out.far_alone = settings.tiers == Tiers::kShells ? 1 : 0;
 }
 
-/// What is known of the set alone: where its patches lie from the anchor (world x, z), how it looks, what lies under it.
+/// What is known of the set alone: where its patches lie from the anchor (world x, z), how it
+/// looks, what lies under it.
 void describe_set(shared::FrameConstants& out, const grass::GrassSet& set, glm::dvec2 anchor) {
     const double side = set.side_m;
     const glm::dvec2 tile = glm::floor(anchor / side);
@@ -84,9 +92,12 @@ double flutter_time(double time_s) {
 
 } // namespace
 
-glm::dvec3 FieldState::to_sun() const { return direction(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg); }
+glm::dvec3 FieldState::to_sun() const {
+    return direction(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg);
+}
 
-void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye, const glm::dvec2& anchor) const {
+void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye,
+                            const glm::dvec2& anchor) const {
     const Atmosphere::Day& day = atmosphere.at(to_sun());
     out.light = day.light;
     out.air = Atmosphere::thinned(day.air, eye.y - surface.range().x);
@@ -95,21 +106,28 @@ void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye, 
     }
 }
 
-Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) const {
+Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
+                           const FrameSettings& settings, glm::dvec2 jitter) const {
     Shot shot;
     const grass::GrassSet& set = world.grass;
     const glm::dvec3 eye = lens.eye;
     constexpr double kGrid = shared::kAnchorGrid_m;
-    shot.anchor = {std::round(eye.x / kGrid) * kGrid, std::floor(eye.y), std::round(eye.z / kGrid) * kGrid};
+    shot.anchor = {std::round(eye.x / kGrid) * kGrid, std::floor(eye.y),
+                   std::round(eye.z / kGrid) * kGrid};
     const glm::dvec2 anchor(shot.anchor.x, shot.anchor.z);
     const glm::dvec3 lod_eye = settings.lod_eye.value_or(eye);
     const double focal_px = lens.focal_px(settings.width, settings.height);
-    const double texel_m = set.levels.empty() ? 0 : static_cast<double>(set.side_m) / set.levels[0].layers.width;
-    shot.bands = lod::bands({}, {focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())}, world.scene.lod);
+    const double texel_m =
+        set.levels.empty() ? 0 : static_cast<double>(set.side_m) / set.levels[0].layers.width;
+    shot.bands =
+        lod::bands({}, {focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())},
+                   world.scene.lod);
 
     shared::FrameConstants& out = shot.constants;
     const glm::dvec3 eye_here = eye - shot.anchor;
-    const glm::dmat4 matrix = clip_from_eye(lens, settings, jitter) * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
+    const glm::dmat4 matrix =
+        clip_from_eye(lens, settings, jitter) *
+        glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-eye_here, 1));
     out.clip_from_world = glm::mat4(matrix);
     out.world_from_clip = glm::mat4(glm::inverse(matrix));
     out.eye = glm::vec3(eye_here);
@@ -123,7 +141,9 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
     out.anchor_height_m = static_cast<float>(shot.anchor.y);
     fill_bands(out, shot.bands, settings);
     const double aside = glm::length(glm::dvec2(lod_eye.x - eye.x, lod_eye.z - eye.z));
-    shot.detail = terrain::detail_of(lens.fov_deg, focal_px, settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover_band.y) + aside);
+    shot.detail = terrain::detail_of(
+        lens.fov_deg, focal_px,
+        settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover_band.y) + aside);
     clipmap.describe(out, anchor);
     out.picture_px = {settings.width, settings.height};
     if (mesh_ground) {
@@ -135,7 +155,8 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens, co
         out.tracks = tracks->field(anchor);
     }
     if (const blades::LivingBlades* alive = living()) {
-        const auto reach = static_cast<float>(std::max(alive->reach_m() - away_from_eyes(eye), 0.0));
+        const auto reach =
+            static_cast<float>(std::max(alive->reach_m() - away_from_eyes(eye), 0.0));
         out.living_band = {kLivingFade * reach, std::max(reach, 1e-3f)};
         out.page_blades = static_cast<int>(alive->pass().blades_a_page());
     }

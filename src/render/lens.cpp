@@ -19,7 +19,8 @@ glm::dvec3 direction(double yaw_deg, double pitch_deg) {
 }
 
 base::Error unfit(const char* what, const std::string& found, const char* expected) {
-    return {base::ExitCode::kBadInput, fmt::format("camera: {}: found {}, expected {}", what, found, expected)};
+    return {base::ExitCode::kBadInput,
+            fmt::format("camera: {}: found {}, expected {}", what, found, expected)};
 }
 
 void check(const char* what, double value, double low, double high, const char* expected) {
@@ -54,8 +55,10 @@ glm::dmat4 view_from_world(const CameraPose& pose) {
         right = c * level - s * up;
         up = c * up + s * level;
     }
-    const glm::dmat4 turn = glm::transpose(glm::dmat4(glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(-ahead, 0), glm::dvec4(0, 0, 0, 1)));
-    return turn * glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-pose.position, 1));
+    const glm::dmat4 turn = glm::transpose(glm::dmat4(
+        glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(-ahead, 0), glm::dvec4(0, 0, 0, 1)));
+    return turn *
+           glm::dmat4({1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, glm::dvec4(-pose.position, 1));
 }
 
 Camera camera_of(const CameraPose& pose, int width, int height) {
@@ -94,7 +97,8 @@ namespace {
 
 constexpr double kNoTurn = 1e-5; // what a host's floats may be off a turn by
 
-/// The eye of a view, free of what the way there and back has rounded: a place that was a whole metre is one again, whichever turn it came by.
+/// The eye of a view, free of what the way there and back has rounded: a place that was a whole
+/// metre is one again, whichever turn it came by.
 glm::dvec3 eye_of(const glm::dmat4& view) {
     const glm::dvec3 eye = -(glm::transpose(glm::dmat3(view)) * glm::dvec3(view[3]));
     const double most = std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z), 1.0});
@@ -107,7 +111,8 @@ void check_turn(const glm::dmat3& turn) {
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
             if (std::abs(square[column][row] - (row == column ? 1 : 0)) > kNoTurn) {
-                throw unfit("view_from_world", "a matrix that stretches or shears", "a turn, or a mirroring, and a shift");
+                throw unfit("view_from_world", "a matrix that stretches or shears",
+                            "a turn, or a mirroring, and a shift");
             }
         }
     }
@@ -116,7 +121,8 @@ void check_turn(const glm::dmat3& turn) {
 } // namespace
 
 double Lens::focal_px(int width, int height) const {
-    return 0.5 * std::max(std::abs(clip_from_eye[0][0]) * width, std::abs(clip_from_eye[1][1]) * height);
+    return 0.5 *
+           std::max(std::abs(clip_from_eye[0][0]) * width, std::abs(clip_from_eye[1][1]) * height);
 }
 
 Lens lens_of(const Camera& camera) {
@@ -133,19 +139,23 @@ Lens lens_of(const Camera& camera) {
         throw unfit("clip_from_view", "another last row", "0, 0, -1, 0: a perspective");
     }
     clip /= -clip[2][3];
-    if (clip[0][0] == 0 || clip[1][1] == 0 || clip[3][0] != 0 || clip[3][1] != 0 || clip[0][2] != 0 || clip[1][2] != 0) {
-        throw unfit("clip_from_view", "a lens without width, shifted or tilted", "a projection, on or off its axis");
+    if (clip[0][0] == 0 || clip[1][1] == 0 || clip[3][0] != 0 || clip[3][1] != 0 ||
+        clip[0][2] != 0 || clip[1][2] != 0) {
+        throw unfit("clip_from_view", "a lens without width, shifted or tilted",
+                    "a projection, on or off its axis");
     }
     Lens lens;
     lens.turn = glm::dmat4(glm::dmat3(view));
     lens.eye = eye_of(view);
-    // The host's depth over the distance d along the axis is (a * -d + b) / d; nearest where it is 1 reversed, else least.
+    // The host's depth over the distance d along the axis is (a * -d + b) / d; nearest where it is
+    // 1 reversed, else least.
     const bool half = camera.clip_depth == ClipDepth::kMinusOneToOne;
     const double a = clip[2][2], b = clip[3][2];
     const double nearest = b > 0 ? 1 : half ? -1 : 0;
     lens.near_m = b / (nearest + a);
     if (b == 0 || !(lens.near_m >= 1e-6 && lens.near_m <= 1e6)) {
-        throw unfit("clip_from_view", fmt::format("a near plane {} m off", lens.near_m), "1e-6 to 1e6 metres");
+        throw unfit("clip_from_view", fmt::format("a near plane {} m off", lens.near_m),
+                    "1e-6 to 1e6 metres");
     }
     lens.host_depth = half ? glm::dvec2(0.5 - 0.5 * a, 0.5 * b) : glm::dvec2(-a, b);
     clip[2][2] = 0;

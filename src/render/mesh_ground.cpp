@@ -14,9 +14,11 @@ constexpr float kNoHandover_m = 1e6f; // geometry at every distance
 
 } // namespace
 
-MeshGround::MeshGround(const scene::Mesh& mesh, const scene::Scene& scene, const grass::GrassSet* set)
+MeshGround::MeshGround(const scene::Mesh& mesh, const scene::Scene& scene,
+                       const grass::GrassSet* set)
     : spec_(scene.surface_grass), mesh_(mesh),
-      grass_(set ? blades::place_set_on_surface(mesh, {*set, scene.grass.density, spec_.slope_deg}, scene.terrain.surface)
+      grass_(set ? blades::place_set_on_surface(mesh, {*set, scene.grass.density, spec_.slope_deg},
+                                                scene.terrain.surface)
                  : blades::place_surface_grass(mesh, spec_, scene.terrain.surface),
              spec_, set),
       canopy_(set ? std::make_unique<shells::SurfaceCanopy>(mesh, spec_.slope_deg) : nullptr) {}
@@ -27,7 +29,9 @@ MeshPass::Look MeshGround::look(glm::vec3 origin) const {
     look.colour = glm::vec3(spec_.ground_colour);
     look.tier = 0;
     look.bare = glm::vec3(spec_.bare_colour);
-    look.least_up = spec_.slope_deg >= 180 ? -2.0f : static_cast<float>(std::cos(spec_.slope_deg * std::numbers::pi / 180));
+    look.least_up = spec_.slope_deg >= 180
+                        ? -2.0f
+                        : static_cast<float>(std::cos(spec_.slope_deg * std::numbers::pi / 180));
     look.density = 1;
     return look;
 }

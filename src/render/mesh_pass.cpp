@@ -29,13 +29,15 @@ std::vector<glm::vec3> interleaved(const scene::Mesh& mesh) {
 
 MeshBuffer::MeshBuffer(const scene::Mesh& mesh)
     : vertices_(gl::Buffer::of(std::span<const glm::vec3>(interleaved(mesh)))),
-      indices_(gl::Buffer::of(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))), count_(static_cast<int>(3 * mesh.triangles.size())) {
+      indices_(gl::Buffer::of(std::span<const std::array<std::uint32_t, 3>>(mesh.triangles))),
+      count_(static_cast<int>(3 * mesh.triangles.size())) {
     glCreateVertexArrays(1, &vertex_array_);
     glVertexArrayVertexBuffer(vertex_array_, 0, vertices_.id(), 0, kVertexBytes);
     glVertexArrayElementBuffer(vertex_array_, indices_.id());
     for (const GLuint attribute : {0u, 1u}) {
         glEnableVertexArrayAttrib(vertex_array_, attribute);
-        glVertexArrayAttribFormat(vertex_array_, attribute, 3, GL_FLOAT, GL_FALSE, attribute * kVertexBytes / 2);
+        glVertexArrayAttribFormat(vertex_array_, attribute, 3, GL_FLOAT, GL_FALSE,
+                                  attribute * kVertexBytes / 2);
         glVertexArrayAttribBinding(vertex_array_, attribute, 0);
     }
 }
@@ -47,8 +49,8 @@ MeshBuffer::~MeshBuffer() {
 }
 
 MeshBuffer::MeshBuffer(MeshBuffer&& other) noexcept
-    : vertices_(std::move(other.vertices_)), indices_(std::move(other.indices_)), vertex_array_(std::exchange(other.vertex_array_, 0)),
-      count_(other.count_) {}
+    : vertices_(std::move(other.vertices_)), indices_(std::move(other.indices_)),
+      vertex_array_(std::exchange(other.vertex_array_, 0)), count_(other.count_) {}
 
 void MeshBuffer::draw() const {
     glBindVertexArray(vertex_array_);
@@ -60,8 +62,10 @@ scene::Mesh unit_sphere() {
     constexpr int kColumns = 2 * kRings;
     for (int j = 0; j <= kRings; ++j) {
         for (int i = 0; i <= kColumns; ++i) {
-            const double polar = std::numbers::pi * j / kRings, around = std::numbers::pi * i / kRings;
-            mesh.positions.emplace_back(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
+            const double polar = std::numbers::pi * j / kRings,
+                         around = std::numbers::pi * i / kRings;
+            mesh.positions.emplace_back(std::sin(polar) * std::cos(around), std::cos(polar),
+                                        std::sin(polar) * std::sin(around));
         }
     }
     mesh.normals = mesh.positions;
@@ -82,7 +86,8 @@ glm::mat3 yaw_turn(double yaw_deg) {
 }
 
 MeshPass::MeshPass(bool aov)
-    : program_("meshes", {"render/mesh.vert", "render/mesh.frag"}, aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {}
+    : program_("meshes", {"render/mesh.vert", "render/mesh.frag"},
+               aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}) {}
 
 void MeshPass::execute(const MeshBuffer& mesh, const Look& look) {
     program_.use();

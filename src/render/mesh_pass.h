@@ -30,16 +30,18 @@ private:
 /// A ball of radius 1, round enough for a silhouette across the screen.
 [[nodiscard]] scene::Mesh unit_sphere();
 
-/// Axes of a mesh that is turned by a yaw: 0 looks north (-z), positive to the east, clockwise from above.
+/// Axes of a mesh that is turned by a yaw: 0 looks north (-z), positive to the east, clockwise from
+/// above.
 [[nodiscard]] glm::mat3 yaw_turn(double yaw_deg);
 
-/// Draws opaque meshes in the light of the frame: the ground under a mesh's grass, objects. Before: frame constants are bound.
+/// Draws opaque meshes in the light of the frame: the ground under a mesh's grass, objects. Before:
+/// frame constants are bound.
 class MeshPass {
 public:
     struct Look {
         glm::vec3 place{0}; ///< of its origin, anchor-relative (m)
         float scale = 1;
-        glm::mat3 turn{1};      ///< its own axes in the world's
+        glm::mat3 turn{1};   ///< its own axes in the world's
         glm::vec3 colour{0}; ///< linear reflectance
         float tier = 6;      ///< in the AOV
         glm::vec3 bare{0};   ///< where it leans too far for grass

@@ -15,7 +15,8 @@ Objects::Objects(const World& world) : placed_(world.scene.objects.size()) {
     }
 }
 
-void Objects::draw(MeshPass& pass, const scene::Scene& scene, const terrain::Surface& surface, glm::dvec3 anchor, double time_s) const {
+void Objects::draw(MeshPass& pass, const scene::Scene& scene, const terrain::Surface& surface,
+                   glm::dvec3 anchor, double time_s) const {
     for (std::size_t n = 0; n < scene.objects.size(); ++n) {
         const scene::ObjectSpec& object = scene.objects[n];
         const bool ball = object.kind == "sphere";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-/// Every pass's name, once: for its timer, its debug group and its row of the statistics. In the order of a frame (frame.cpp).
+/// Every pass's name, once: for its timer, its debug group and its row of the statistics. In the
+/// order of a frame (frame.cpp).
 namespace sward::render::pass_names {
 
-// The passes of FieldState::simulate, "wind" and "physics", are named where they run: blades/simulation.cpp.
+// The passes of FieldState::simulate, "wind" and "physics", are named where they run:
+// blades/simulation.cpp.
 inline constexpr const char* kWind = "wind";
 inline constexpr const char* kTracks = "tracks";
 inline constexpr const char* kClipmap = "clipmap";

@@ -15,13 +15,16 @@ std::shared_ptr<FieldState> make_field(World world) {
 } // namespace
 
 Camera camera_of_pose(const scene::Pose& pose, int width, int height) {
-    return camera_of(CameraPose{pose.position, pose.yaw_deg, pose.pitch_deg, 0, pose.fov_deg, kNear_m}, width, height);
+    return camera_of(
+        CameraPose{pose.position, pose.yaw_deg, pose.pitch_deg, 0, pose.fov_deg, kNear_m}, width,
+        height);
 }
 
 Renderer::Renderer(World world) : field_(make_field(std::move(world))), view_(field_) {}
 
 void Renderer::draw(const Moment& moment, const FrameSettings& settings) {
-    view_.targets.require(settings.width, settings.height, settings.samples, settings.aov); // refused before the time goes on
+    view_.targets.require(settings.width, settings.height, settings.samples,
+                          settings.aov); // refused before the time goes on
     const Camera camera = camera_of_pose(moment.pose, settings.width, settings.height);
     FrameSettings own = settings;
     if (moment.lod_pose.position != moment.pose.position) {

@@ -9,7 +9,9 @@
 namespace sward::render {
 
 namespace {
-std::vector<std::string> variant(bool aov) { return aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{}; }
+std::vector<std::string> variant(bool aov) {
+    return aov ? std::vector<std::string>{"AOV"} : std::vector<std::string>{};
+}
 } // namespace
 
 ScreenPasses::ScreenPasses(bool aov)
@@ -68,7 +70,10 @@ void ScreenPasses::tone_map(const Targets& targets, float exposure) {
 
 void ScreenPasses::take_scene(std::uint32_t colour, std::uint32_t depth, glm::dvec2 host_depth) {
     if (!take_scene_) {
-        take_scene_ = std::make_unique<gl::Program>("host scene", std::vector<std::filesystem::path>{"render/screen.vert", "render/host_scene.frag"}, variant(aov_));
+        take_scene_ = std::make_unique<gl::Program>(
+            "host scene",
+            std::vector<std::filesystem::path>{"render/screen.vert", "render/host_scene.frag"},
+            variant(aov_));
     }
     glBindTextureUnit(TEX_RESOLVE_COLOR, colour);
     glBindTextureUnit(TEX_RESOLVE_DEPTH, depth);
@@ -77,20 +82,27 @@ void ScreenPasses::take_scene(std::uint32_t colour, std::uint32_t depth, glm::dv
     triangle();
 }
 
-void ScreenPasses::hand_out(const Targets& targets, std::uint32_t colour, std::uint32_t depth, glm::dvec2 host_depth) {
+void ScreenPasses::hand_out(const Targets& targets, std::uint32_t colour, std::uint32_t depth,
+                            glm::dvec2 host_depth) {
     if (!hand_out_) {
-        hand_out_ = std::make_unique<gl::Program>("hand out", std::vector<std::filesystem::path>{"render/screen.vert", "render/hand_out.frag"});
+        hand_out_ = std::make_unique<gl::Program>(
+            "hand out",
+            std::vector<std::filesystem::path>{"render/screen.vert", "render/hand_out.frag"});
         glCreateFramebuffers(1, &host_framebuffer_);
     }
     glNamedFramebufferTexture(host_framebuffer_, GL_COLOR_ATTACHMENT0, colour, 0);
     glNamedFramebufferTexture(host_framebuffer_, GL_DEPTH_ATTACHMENT, depth, 0);
     glNamedFramebufferDrawBuffer(host_framebuffer_, colour != 0 ? GL_COLOR_ATTACHMENT0 : GL_NONE);
-    if (glCheckNamedFramebufferStatus(host_framebuffer_, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        throw base::Error(base::ExitCode::kBadInput, "target: found textures that cannot be drawn to together, expected single-sampled 2D ones of one size: "
-                                                     "colour RGBA16F or RGBA32F, depth DEPTH_COMPONENT24 or 32F");
+    if (glCheckNamedFramebufferStatus(host_framebuffer_, GL_FRAMEBUFFER) !=
+        GL_FRAMEBUFFER_COMPLETE) {
+        throw base::Error(base::ExitCode::kBadInput,
+                          "target: found textures that cannot be drawn to together, expected "
+                          "single-sampled 2D ones of one size: "
+                          "colour RGBA16F or RGBA32F, depth DEPTH_COMPONENT24 or 32F");
     }
     glBindFramebuffer(GL_FRAMEBUFFER, host_framebuffer_);
-    glViewportIndexedf(0, 0, 0, static_cast<float>(targets.width()), static_cast<float>(targets.height()));
+    glViewportIndexedf(0, 0, 0, static_cast<float>(targets.width()),
+                       static_cast<float>(targets.height()));
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     targets.bind_resolved_textures();
@@ -99,7 +111,8 @@ void ScreenPasses::hand_out(const Targets& targets, std::uint32_t colour, std::u
     triangle();
     glDepthFunc(GL_GREATER);
     glDisable(GL_DEPTH_TEST);
-    glNamedFramebufferTexture(host_framebuffer_, GL_COLOR_ATTACHMENT0, 0, 0); // the host may delete them
+    glNamedFramebufferTexture(host_framebuffer_, GL_COLOR_ATTACHMENT0, 0,
+                              0); // the host may delete them
     glNamedFramebufferTexture(host_framebuffer_, GL_DEPTH_ATTACHMENT, 0, 0);
 }
 

@@ -18,10 +18,13 @@ void check_limits(int width, int height, int samples) {
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
     glGetIntegerv(GL_MAX_SAMPLES, &most);
     if (width < 1 || height < 1 || width > side || height > side) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("size: found {}x{}, this GPU draws 1x1 to {}x{}", width, height, side, side));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("size: found {}x{}, this GPU draws 1x1 to {}x{}", width,
+                                      height, side, side));
     }
     if (samples < 1 || samples > most) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("samples: found {}, this GPU takes 1 to {}", samples, most));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("samples: found {}, this GPU takes 1 to {}", samples, most));
     }
 }
 
@@ -47,7 +50,8 @@ void Targets::require(int width, int height, int samples, bool aov) {
         scene_normal_ = gl::Texture(GL_RGBA16F, multisampled);
         tangent_ = gl::Texture(GL_RGBA16F, plain);
         normal_ = gl::Texture(GL_RGBA16F, plain);
-        scene_ = gl::Framebuffer({&scene_color_, &scene_data_, &scene_tangent_, &scene_normal_}, &scene_depth_);
+        scene_ = gl::Framebuffer({&scene_color_, &scene_data_, &scene_tangent_, &scene_normal_},
+                                 &scene_depth_);
         resolved_ = gl::Framebuffer({&color_, &data_, &tangent_, &normal_}, &kinds_);
     } else {
         scene_ = gl::Framebuffer({&scene_color_}, &scene_depth_);
@@ -72,7 +76,9 @@ void Targets::bind_scene_textures() const {
     }
 }
 
-void Targets::bind_resolved_color() const { color_.bind(TEX_RESOLVE_COLOR); }
+void Targets::bind_resolved_color() const {
+    color_.bind(TEX_RESOLVE_COLOR);
+}
 
 void Targets::bind_resolved_textures() const {
     color_.bind(TEX_RESOLVE_COLOR);

@@ -9,7 +9,8 @@ namespace sward::render {
 /// Where a frame is drawn: multisampled scene targets, their resolve, and the 8-bit picture.
 class Targets {
 public:
-    /// Makes (or keeps) targets of this shape. Throws Error(kOverLimit) over the GPU's size or sample limit.
+    /// Makes (or keeps) targets of this shape. Throws Error(kOverLimit) over the GPU's size or
+    /// sample limit.
     void require(int width, int height, int samples, bool aov);
 
     void bind_scene() const { scene_.bind(width_, height_); }

@@ -10,25 +10,30 @@
 namespace sward::render {
 
 ViewState::ViewState(std::shared_ptr<FieldState> of)
-    : field(std::move(of)), clipmap(field->ground), frame_buffer(sizeof(shared::FrameConstants)), reloads(field->reloads) {}
+    : field(std::move(of)), clipmap(field->ground), frame_buffer(sizeof(shared::FrameConstants)),
+      reloads(field->reloads) {}
 
-void ViewState::draw(const Camera& camera, const FrameSettings& settings, const HostTextures& host) {
+void ViewState::draw(const Camera& camera, const FrameSettings& settings,
+                     const HostTextures& host) {
     last_settings = settings;
-    if (!field->on_mesh() && field->world.grass.blades.empty() && last_settings.tiers == Tiers::kAll) {
+    if (!field->on_mesh() && field->world.grass.blades.empty() &&
+        last_settings.tiers == Tiers::kAll) {
         last_settings.tiers = Tiers::kShells; // a far-only set: the far tier from the eye's feet on
     }
     const Lens checked = lens_of(camera); // before anything is changed
     static_cast<void>(checked);
     blades_considered = 0;
     timers.begin_frame(last_settings.wait_in_passes);
-    targets.require(last_settings.width, last_settings.height, last_settings.samples, last_settings.aov);
+    targets.require(last_settings.width, last_settings.height, last_settings.samples,
+                    last_settings.aov);
     Frame(*this, camera, last_settings, host).draw();
     field->counted = this;
 }
 
 void ViewState::present(std::uint32_t fbo, int x, int y) const {
-    glBlitNamedFramebuffer(targets.display().id(), fbo, 0, 0, targets.width(), targets.height(), x, y, x + targets.width(), y + targets.height(),
-                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitNamedFramebuffer(targets.display().id(), fbo, 0, 0, targets.width(), targets.height(), x,
+                           y, x + targets.width(), y + targets.height(), GL_COLOR_BUFFER_BIT,
+                           GL_NEAREST);
 }
 
 FrameStats ViewState::stats() const {
@@ -41,19 +46,22 @@ FrameStats ViewState::stats() const {
     stats.blades_considered = blades_considered;
     const FrameSettings& settings = last_settings;
     if (!settings.physics || !draws_blades(settings)) {
-        stats.blades_simulated = stats.patches_stepped = stats.physics_steps = stats.physics_bytes = stats.sphere_pairs = 0;
+        stats.blades_simulated = stats.patches_stepped = stats.physics_steps = stats.physics_bytes =
+            stats.sphere_pairs = 0;
     }
     if (field->counted != this) {
         return stats;
     }
     const MeshGround* mesh = field->mesh_ground.get();
-    if ((!mesh || mesh->has_set()) && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
+    if ((!mesh || mesh->has_set()) &&
+        (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(targets.samples());
         const DrawPasses& passes = field->passes(settings.aov);
         if (settings.far != FarScheme::kMarch && !mesh) {
             stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
             stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
-        } else if (settings.far == FarScheme::kMarch && settings.shells && !field->march_textures.empty()) {
+        } else if (settings.far == FarScheme::kMarch && settings.shells &&
+                   !field->march_textures.empty()) {
             stats.shell_fragments = passes.march.pixels().y;
             stats.slice_fragments = passes.march.pixels().x;
             if (settings.count_steps) {
@@ -64,7 +72,9 @@ FrameStats ViewState::stats() const {
     }
     if (stats.blades_considered > 0) {
         const bool sampled = !mesh && samples_decide(settings, targets.samples());
-        const auto counts = sampled ? field->sample_cull->counts() : (mesh ? field->mesh_ground->grass().cull() : field->cull).counts();
+        const auto counts =
+            sampled ? field->sample_cull->counts()
+                    : (mesh ? field->mesh_ground->grass().cull() : field->cull).counts();
         stats.blades_drawn = counts[CULL_KEPT];
         stats.culled_by_frustum = counts[CULL_FRUSTUM];
         stats.culled_by_orientation = counts[CULL_ORIENTATION];
@@ -76,7 +86,8 @@ FrameStats ViewState::stats() const {
 }
 
 void ViewState::reload(std::vector<std::string>& failures) {
-    for (auto part : {+[](ViewState& v) { v.depth_pyramid.reload(); }, +[](ViewState& v) { v.block_samples.reload(); }}) {
+    for (auto part : {+[](ViewState& v) { v.depth_pyramid.reload(); },
+                      +[](ViewState& v) { v.block_samples.reload(); }}) {
         try {
             part(*this);
         } catch (const base::Error& error) {

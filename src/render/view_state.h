@@ -13,10 +13,13 @@
 
 namespace sward::render {
 
-/// Textures of a host, single-sampled 2D of the picture's size, beside the view's own display picture; 0: none.
+/// Textures of a host, single-sampled 2D of the picture's size, beside the view's own display
+/// picture; 0: none.
 struct HostTextures {
-    std::uint32_t colour = 0, depth = 0;             ///< written: linear radiance; depth as the camera's matrix has it
-    std::uint32_t scene_colour = 0, scene_depth = 0; ///< read: what the host has drawn already, likewise
+    std::uint32_t colour = 0,
+                  depth = 0; ///< written: linear radiance; depth as the camera's matrix has it
+    std::uint32_t scene_colour = 0,
+                  scene_depth = 0; ///< read: what the host has drawn already, likewise
     [[nodiscard]] bool takes_scene() const { return scene_depth != 0; }
     [[nodiscard]] bool gives() const { return colour != 0 || depth != 0; }
     bool display = true; ///< the 8-bit picture is made
@@ -26,19 +29,22 @@ struct HostTextures {
 struct ViewState {
     explicit ViewState(std::shared_ptr<FieldState> of);
 
-    /// Draws the field as it now is into the view's own targets, and the host's textures. Throws Error(kOverLimit) over the GPU's size or sample
-    /// limit, (kBadInput) for a camera that is none.
+    /// Draws the field as it now is into the view's own targets, and the host's textures. Throws
+    /// Error(kOverLimit) over the GPU's size or sample limit, (kBadInput) for a camera that is
+    /// none.
     void draw(const Camera& camera, const FrameSettings& settings, const HostTextures& host);
-    /// Copies the tone-mapped picture into the framebuffer `fbo` (0: the window's), bottom-left at `x`, `y`.
+    /// Copies the tone-mapped picture into the framebuffer `fbo` (0: the window's), bottom-left at
+    /// `x`, `y`.
     void present(std::uint32_t fbo, int x, int y) const;
 
     /// The picture just drawn, tone-mapped, 8-bit sRGB. Waits for the GPU.
     [[nodiscard]] scene::Picture read_picture() const;
-    /// The picture just drawn as linear floats. `names` out of color, depth, tier, coverage, tangent, normal, rank; needs
-    /// settings.aov for all but color and depth. Channel names: docs/commands.md.
+    /// The picture just drawn as linear floats. `names` out of color, depth, tier, coverage,
+    /// tangent, normal, rank; needs settings.aov for all but color and depth. Channel names:
+    /// docs/commands.md.
     [[nodiscard]] scene::Image read_aovs(const std::vector<std::string>& names) const;
-    /// Counts and times of the picture just drawn and of the simulation before it. Waits for the GPU. What the passes count is there until
-    /// another view of the field draws.
+    /// Counts and times of the picture just drawn and of the simulation before it. Waits for the
+    /// GPU. What the passes count is there until another view of the field draws.
     [[nodiscard]] FrameStats stats() const;
     /// Recompiles what the view alone has; as FieldState::reload, which goes first.
     void reload(std::vector<std::string>& failures);

@@ -10,12 +10,14 @@ namespace sward::scene {
 namespace {
 
 constexpr double kNewStrength_mps = 8, kNewRadius_m = 3;
-constexpr double kMostStrength_mps = 300, kLeastRadius_m = 0.01, kMostRadius_m = 1000; // wind_section.cpp's ranges
+constexpr double kMostStrength_mps = 300, kLeastRadius_m = 0.01,
+                 kMostRadius_m = 1000; // wind_section.cpp's ranges
 constexpr double kMostPlace_m = 1e6;
 
 /// On whole millimetres: a file stays readable, and equal places stay equal.
 glm::dvec2 tidy(glm::dvec2 at) {
-    return glm::clamp(glm::round(at * 1000.0) / 1000.0, glm::dvec2(-kMostPlace_m), glm::dvec2(kMostPlace_m));
+    return glm::clamp(glm::round(at * 1000.0) / 1000.0, glm::dvec2(-kMostPlace_m),
+                      glm::dvec2(kMostPlace_m));
 }
 
 bool finite(glm::dvec2 at) {
@@ -31,7 +33,9 @@ void erase_with_children(std::vector<WindArrow>& arrows, std::vector<std::string
     while (!gone.empty()) {
         std::vector<std::string> next;
         std::erase_if(arrows, [&](const WindArrow& arrow) {
-            const auto among = [&](const std::string& id) { return std::find(gone.begin(), gone.end(), id) != gone.end(); };
+            const auto among = [&](const std::string& id) {
+                return std::find(gone.begin(), gone.end(), id) != gone.end();
+            };
             if (!among(arrow.id) && !among(arrow.parent))
                 return false;
             if (!among(arrow.id))
@@ -52,7 +56,8 @@ glm::dvec2 ArrowEdit::place(ArrowHandle handle) const {
 std::optional<ArrowHandle> ArrowEdit::nearest(glm::dvec2 at, double reach_m) const {
     std::optional<ArrowHandle> best;
     double least = reach_m;
-    for (const ArrowEnd end : {ArrowEnd::kTip, ArrowEnd::kRoot}) // tips first: a root on one is no nearer
+    for (const ArrowEnd end :
+         {ArrowEnd::kTip, ArrowEnd::kRoot}) // tips first: a root on one is no nearer
         for (std::size_t i = 0; i < arrows_.size(); ++i)
             if (const double away = glm::distance(place({i, end}), at); away < least)
                 best = ArrowHandle{i, end}, least = away;
@@ -198,7 +203,8 @@ bool ArrowEdit::redo() {
 }
 
 std::size_t ArrowEdit::index_of(const std::string& id) const {
-    const auto found = std::find_if(arrows_.begin(), arrows_.end(), [&](const WindArrow& a) { return a.id == id; });
+    const auto found = std::find_if(arrows_.begin(), arrows_.end(),
+                                    [&](const WindArrow& a) { return a.id == id; });
     return static_cast<std::size_t>(found - arrows_.begin());
 }
 

@@ -17,30 +17,35 @@ struct ArrowHandle {
     bool operator==(const ArrowHandle&) const = default;
 };
 
-/// The wind's arrows under edit (methods.md W5): points are added, moved and deleted, every change can be undone. Whatever is
-/// done, the arrows stay what a scene file may hold: unique ids, parents that are there and come first in no loop, lengths
-/// above kLeastLength_m, numbers in their ranges. No window, no GL.
+/// The wind's arrows under edit (methods.md W5): points are added, moved and deleted, every change
+/// can be undone. Whatever is done, the arrows stay what a scene file may hold: unique ids, parents
+/// that are there and come first in no loop, lengths above kLeastLength_m, numbers in their ranges.
+/// No window, no GL.
 class ArrowEdit {
 public:
     static constexpr double kLeastLength_m = 0.05;
     static constexpr std::size_t kMostArrows = 1024;
     static constexpr std::size_t kMostUndo = 256; ///< older changes cannot be undone
 
-    explicit ArrowEdit(std::vector<WindArrow> arrows) : arrows_(std::move(arrows)), saved_(arrows_) {}
+    explicit ArrowEdit(std::vector<WindArrow> arrows)
+        : arrows_(std::move(arrows)), saved_(arrows_) {}
 
     [[nodiscard]] const std::vector<WindArrow>& arrows() const { return arrows_; }
     [[nodiscard]] glm::dvec2 place(ArrowHandle handle) const;
-    /// The point nearest to `at` within `reach_m`; of a tip and the roots that continue it, the tip.
+    /// The point nearest to `at` within `reach_m`; of a tip and the roots that continue it, the
+    /// tip.
     [[nodiscard]] std::optional<ArrowHandle> nearest(glm::dvec2 at, double reach_m) const;
 
     /// A new tree; nothing when it would be too short or there are too many. Returns its arrow.
     std::optional<std::size_t> add(glm::dvec2 root, glm::dvec2 tip);
     /// A new arrow that continues `parent` from its tip, as strong and as wide. Likewise.
     std::optional<std::size_t> branch(std::size_t parent, glm::dvec2 tip);
-    /// Moves a point and what hangs on it: a tip takes the roots of the arrows that continue it along. A root that sits on
-    /// its parent's tip moves that tip. Refused (false) when an arrow would become too short.
+    /// Moves a point and what hangs on it: a tip takes the roots of the arrows that continue it
+    /// along. A root that sits on its parent's tip moves that tip. Refused (false) when an arrow
+    /// would become too short.
     bool move(ArrowHandle handle, glm::dvec2 to);
-    /// Takes an arrow out; those that continued it start where it did. Whoever becomes too short goes with it.
+    /// Takes an arrow out; those that continued it start where it did. Whoever becomes too short
+    /// goes with it.
     void erase(std::size_t arrow);
     /// Takes an arrow out with all that continues it.
     void erase_branch(std::size_t arrow);

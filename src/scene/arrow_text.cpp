@@ -51,7 +51,8 @@ std::vector<std::pair<std::string, std::string>> keys_of(const WindArrow& arrow)
 
 class ArrowText {
 public:
-    ArrowText(const std::string& text, const std::filesystem::path& file) : text_(text), file_(file) {
+    ArrowText(const std::string& text, const std::filesystem::path& file)
+        : text_(text), file_(file) {
         line_begin_.push_back(0);
         for (std::size_t i = 0; i < text.size(); ++i)
             if (text[i] == '\n')
@@ -95,18 +96,26 @@ private:
         for (const toml::node& node : *array) {
             const toml::table* table = node.as_table();
             if (!table || table->is_inline())
-                throw base::input_error(base::ExitCode::kBadInput, file_, static_cast<int>(node.source().begin.line),
-                                        "wind.arrow", "an array in one line", "[[wind.arrow]] blocks, which can be saved");
+                throw base::input_error(base::ExitCode::kBadInput, file_,
+                                        static_cast<int>(node.source().begin.line), "wind.arrow",
+                                        "an array in one line",
+                                        "[[wind.arrow]] blocks, which can be saved");
             all.push_back(table);
         }
         return all;
     }
 
-    /// Offset of a place in the text. Columns count characters, of which arrows' lines hold only ASCII before their values.
-    std::size_t offset(const toml::source_position& at) const { return line_begin_.at(at.line - 1) + at.column - 1; }
-    std::size_t line_end(std::size_t line) const { return line < line_begin_.size() ? line_begin_[line] : text_.size(); }
+    /// Offset of a place in the text. Columns count characters, of which arrows' lines hold only
+    /// ASCII before their values.
+    std::size_t offset(const toml::source_position& at) const {
+        return line_begin_.at(at.line - 1) + at.column - 1;
+    }
+    std::size_t line_end(std::size_t line) const {
+        return line < line_begin_.size() ? line_begin_[line] : text_.size();
+    }
 
-    /// Behind the last line (from 1) that belongs to the block: the comments before the next block are the next one's.
+    /// Behind the last line (from 1) that belongs to the block: the comments before the next block
+    /// are the next one's.
     std::size_t block_end(const toml::table& table) const {
         std::size_t last = table.source().begin.line;
         for (const auto& [key, node] : table)
@@ -127,12 +136,14 @@ private:
     void update(const toml::table& table, const WindArrow& arrow) {
         std::string added;
         for (const auto& [key, value] : keys_of(arrow)) {
-            const toml::node* node = table.get(spelt(table, key)); // an older file keeps its spelling
+            const toml::node* node =
+                table.get(spelt(table, key)); // an older file keeps its spelling
             if (!node) {
                 if (key != "radius_m" || arrow.radius_m != WindArrow{}.radius_m)
                     added += key + " = " + value + newline_;
             } else if (!same(*node, key, arrow)) {
-                changes_.push_back({offset(node->source().begin), offset(node->source().end), value});
+                changes_.push_back(
+                    {offset(node->source().begin), offset(node->source().end), value});
             }
         }
         if (const toml::node* node = table.get("parent"); node && arrow.parent.empty())
@@ -155,9 +166,9 @@ private:
         if (key == "root" || key == "tip")
             return pair(key == "root" ? arrow.root : arrow.tip);
         const double value = key == "strength_mps" ? arrow.strength_mps
-                             : key == "radius_m"  ? arrow.radius_m
-                             : key == "start_s"   ? arrow.start_s
-                                                  : arrow.end_s;
+                             : key == "radius_m"   ? arrow.radius_m
+                             : key == "start_s"    ? arrow.start_s
+                                                   : arrow.end_s;
         return node.value<double>() == value;
     }
 
@@ -175,7 +186,8 @@ private:
     }
 
     std::string apply() {
-        std::stable_sort(changes_.begin(), changes_.end(), [](const Change& a, const Change& b) { return a.begin < b.begin; });
+        std::stable_sort(changes_.begin(), changes_.end(),
+                         [](const Change& a, const Change& b) { return a.begin < b.begin; });
         std::string out;
         std::size_t at = 0;
         for (const Change& change : changes_) {
@@ -196,7 +208,8 @@ private:
 
 } // namespace
 
-std::string with_arrows(const std::string& text, const std::vector<WindArrow>& arrows, const std::filesystem::path& file) {
+std::string with_arrows(const std::string& text, const std::vector<WindArrow>& arrows,
+                        const std::filesystem::path& file) {
     return ArrowText(text, file).with(arrows);
 }
 
@@ -204,11 +217,13 @@ void save_arrows(const std::filesystem::path& file, const std::vector<WindArrow>
     const std::string text = with_arrows(base::read_text(file, kLimit), arrows, file);
     // Read back before the old file goes: a text that says something else never gets there.
     const std::vector<WindArrow> written = parse_scene(text, file).wind.arrows;
-    const bool equal = written.size() == arrows.size() && std::ranges::all_of(arrows, [&](const WindArrow& arrow) {
-        return std::find(written.begin(), written.end(), arrow) != written.end();
-    });
+    const bool equal =
+        written.size() == arrows.size() && std::ranges::all_of(arrows, [&](const WindArrow& arrow) {
+            return std::find(written.begin(), written.end(), arrow) != written.end();
+        });
     if (!equal)
-        throw base::input_error(base::ExitCode::kBadInput, file, 0, "arrows", "others when the new text was read back",
+        throw base::input_error(base::ExitCode::kBadInput, file, 0, "arrows",
+                                "others when the new text was read back",
                                 "[[wind.arrow]] blocks that can be replaced");
     base::write_file_atomic(file, text);
 }

@@ -18,8 +18,10 @@
 namespace sward::scene {
 namespace {
 
-/// Posts of a tile, west to east and north to south. North of 50 degrees a tile may have twice the spacing in longitude.
-constexpr std::array<glm::ivec2, 5> kTiles = {{{1201, 1201}, {3601, 3601}, {7201, 7201}, {601, 1201}, {1801, 3601}}};
+/// Posts of a tile, west to east and north to south. North of 50 degrees a tile may have twice the
+/// spacing in longitude.
+constexpr std::array<glm::ivec2, 5> kTiles = {
+    {{1201, 1201}, {3601, 3601}, {7201, 7201}, {601, 1201}, {1801, 3601}}};
 
 std::uint64_t tile_bytes(glm::ivec2 posts) {
     return std::uint64_t(posts.x) * std::uint64_t(posts.y) * 2;
@@ -117,16 +119,18 @@ bool is_void(double value) {
 
 glm::dvec2 linear_place(const Georeference& frame, double latitude_deg, double longitude_deg) {
     const double east = std::remainder(longitude_deg - frame.longitude_deg, 360.0);
-    return {east * frame.metres_per_degree.x, (frame.latitude_deg - latitude_deg) * frame.metres_per_degree.y};
+    return {east * frame.metres_per_degree.x,
+            (frame.latitude_deg - latitude_deg) * frame.metres_per_degree.y};
 }
 
 Heightfield read_hgt(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = base::read_file(path, tile_bytes(kTiles[2]));
-    const auto tile = std::find_if(kTiles.begin(), kTiles.end(), [&](glm::ivec2 t) { return tile_bytes(t) == bytes.size(); });
+    const auto tile = std::find_if(kTiles.begin(), kTiles.end(),
+                                   [&](glm::ivec2 t) { return tile_bytes(t) == bytes.size(); });
     if (tile == kTiles.end())
         throw bad(path, "not an .hgt tile", fmt::format("{} bytes", bytes.size()),
-                  fmt::format("{} bytes (1201 x 1201 posts), {} (3601 x 3601) or {} (1801 x 3601)", tile_bytes(kTiles[0]),
-                              tile_bytes(kTiles[1]), tile_bytes(kTiles[4])));
+                  fmt::format("{} bytes (1201 x 1201 posts), {} (3601 x 3601) or {} (1801 x 3601)",
+                              tile_bytes(kTiles[0]), tile_bytes(kTiles[1]), tile_bytes(kTiles[4])));
     const auto south_west = corner(path.stem().string());
     if (!south_west)
         throw bad(path, "name of an .hgt tile", base::printable(path.stem().native()),
@@ -147,7 +151,8 @@ Heightfield read_hgt(const std::filesystem::path& path) {
         const auto word = static_cast<std::uint16_t>(std::to_integer<unsigned>(bytes[i]) << 8 |
                                                      std::to_integer<unsigned>(bytes[i + 1]));
         const auto metres = static_cast<std::int16_t>(word);
-        field.metres.push_back(is_void(metres) ? std::numeric_limits<float>::quiet_NaN() : float(metres));
+        field.metres.push_back(is_void(metres) ? std::numeric_limits<float>::quiet_NaN()
+                                               : float(metres));
     }
     fill_voids(field.width, field.height, field.metres);
     if (std::isnan(field.metres.front())) // one left over means that all are

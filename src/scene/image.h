@@ -9,7 +9,8 @@
 
 namespace sward::scene {
 
-/// Float image with named channels, row 0 at the top, interleaved. Colour channels "R","G","B","A" are linear.
+/// Float image with named channels, row 0 at the top, interleaved. Colour channels "R","G","B","A"
+/// are linear.
 struct Image {
     int width = 0;
     int height = 0;
@@ -25,7 +26,8 @@ struct Picture {
     std::vector<std::uint8_t> rgb;
 };
 
-/// Binary PPM (P6), written whole or not at all: the core build's picture output. Throws Error(kIo).
+/// Binary PPM (P6), written whole or not at all: the core build's picture output. Throws
+/// Error(kIo).
 void write_ppm(const std::filesystem::path& path, const Picture& picture);
 
 } // namespace sward::scene

@@ -10,7 +10,8 @@ namespace sward::scene {
 
 /// What lies under the grass, or bare.
 enum class GroundKind { kSoil, kRock, kSand, kGravel, kAsphalt, kWater };
-inline constexpr std::array<const char*, 6> kGroundNames = {"soil", "rock", "sand", "gravel", "asphalt", "water"};
+inline constexpr std::array<const char*, 6> kGroundNames = {"soil",   "rock",    "sand",
+                                                            "gravel", "asphalt", "water"};
 
 /// What stands and lies where a landcover has a class.
 struct LandClass {
@@ -24,7 +25,9 @@ struct LandClass {
 
     bool operator==(const LandClass&) const = default;
     /// Does a density say all of it?
-    [[nodiscard]] bool plain() const { return height == 1 && dryness == 0 && ground == GroundKind::kSoil; }
+    [[nodiscard]] bool plain() const {
+        return height == 1 && dryness == 0 && ground == GroundKind::kSoil;
+    }
 };
 
 /// Areas or lines of a file that are burnt over the classes.

@@ -18,11 +18,13 @@ void read_ground(TableReader& table, GroundKind& ground) {
         return;
     const auto found = std::find(kGroundNames.begin(), kGroundNames.end(), name);
     if (found == kGroundNames.end())
-        throw table.error("ground", fmt::format("\"{}\"", name), fmt::format("one of {}", fmt::join(kGroundNames, ", ")));
+        throw table.error("ground", fmt::format("\"{}\"", name),
+                          fmt::format("one of {}", fmt::join(kGroundNames, ", ")));
     ground = static_cast<GroundKind>(found - kGroundNames.begin());
 }
 
-/// { density, height, dryness, ground }. Grass is soil's; another ground has none unless it says so.
+/// { density, height, dryness, ground }. Grass is soil's; another ground has none unless it says
+/// so.
 LandClass read_look(TableReader& table) {
     LandClass look;
     read_ground(table, look.ground);
@@ -51,7 +53,8 @@ void read_classes(TableReader& table, TerrainSpec& terrain) {
     }
 }
 
-LandClass class_of(const TableReader& table, const char* key, int value, const TerrainSpec& terrain) {
+LandClass class_of(const TableReader& table, const char* key, int value,
+                   const TerrainSpec& terrain) {
     const auto found = terrain.classes.find(value);
     if (found == terrain.classes.end())
         throw table.error(key, fmt::format("{}", value), "a class of [terrain.classes]");

@@ -17,7 +17,8 @@ namespace {
 constexpr std::string_view kAbsolute = "abs:";
 constexpr std::string_view kGeo = "geo:";
 constexpr std::array<const char*, 5> kFields = {"x", "y", "z", "yaw", "pitch"};
-constexpr std::array<const char*, 5> kGeoFields = {"latitude", "longitude", "height", "yaw", "pitch"};
+constexpr std::array<const char*, 5> kGeoFields = {"latitude", "longitude", "height", "yaw",
+                                                   "pitch"};
 constexpr std::array<Range, 5> kRanges = {kPlace, kHeight, kPlace, kYaw, kPitch};
 constexpr std::array<Range, 5> kGeoRanges = {kLatitude, kLongitude, kHeight, kYaw, kPitch};
 
@@ -75,7 +76,8 @@ Pose sample_path(const Path& path, double time_s) {
     return pose;
 }
 
-Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& paths, double time_s) {
+Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& paths,
+                 double time_s) {
     Pose pose;
     if (const auto path = paths.find(object.path); path != paths.end()) {
         pose = sample_path(path->second, time_s);
@@ -88,7 +90,8 @@ Pose object_pose(const ObjectSpec& object, const std::map<std::string, Path>& pa
 }
 
 Pose parse_pose(const std::string& text, const std::string& option) {
-    constexpr const char* kForm = "x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
+    constexpr const char* kForm =
+        "x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
     const std::string found = text.empty() ? "nothing" : base::printable(text);
     Pose pose;
     std::string_view rest = text;
@@ -112,7 +115,8 @@ Pose parse_pose(const std::string& text, const std::string& option) {
         const Range& range = geo ? kGeoRanges[i] : kRanges[i];
         if (result.ec != std::errc() || !(values[i] >= range.low && values[i] <= range.high))
             throw usage(
-                option, fmt::format("{} = {}", geo ? kGeoFields[i] : kFields[i], base::printable(field)),
+                option,
+                fmt::format("{} = {}", geo ? kGeoFields[i] : kFields[i], base::printable(field)),
                 fmt::format("a number from {} to {} {}", range.low, range.high, range.unit));
         rest.remove_prefix(last ? rest.size() : comma + 1);
     }
@@ -127,17 +131,24 @@ Pose parse_pose(const std::string& text, const std::string& option) {
 namespace {
 
 /// Places may lie as far from the middle as files may write them.
-void settle(std::optional<glm::dvec2>& geo, glm::dvec3& position, const PlaceOnEarth& on_earth, const std::string& what) {
+void settle(std::optional<glm::dvec2>& geo, glm::dvec3& position, const PlaceOnEarth& on_earth,
+            const std::string& what) {
     if (!geo)
         return;
-    const base::ExitCode code = what.starts_with("--") ? base::ExitCode::kUsage : base::ExitCode::kBadInput;
+    const base::ExitCode code =
+        what.starts_with("--") ? base::ExitCode::kUsage : base::ExitCode::kBadInput;
     const std::string found = fmt::format("latitude {}, longitude {}", geo->x, geo->y);
     if (!on_earth)
-        throw base::Error(code, fmt::format("{}: found {}, expected x and z: the terrain has no place on Earth", what, found));
+        throw base::Error(
+            code, fmt::format("{}: found {}, expected x and z: the terrain has no place on Earth",
+                              what, found));
     const glm::dvec2 place = on_earth(geo->x, geo->y);
     if (!(std::abs(place.x) <= kPlace.high && std::abs(place.y) <= kPlace.high))
-        throw base::Error(code, fmt::format("{}: found {}, {:.0f} km from the terrain's middle, expected at most {:.0f} km",
-                                                                 what, found, glm::length(place) / 1000, kPlace.high / 1000));
+        throw base::Error(
+            code,
+            fmt::format(
+                "{}: found {}, {:.0f} km from the terrain's middle, expected at most {:.0f} km",
+                what, found, glm::length(place) / 1000, kPlace.high / 1000));
     position.x = place.x;
     position.z = place.y;
     geo.reset();

@@ -104,18 +104,22 @@ Heightfield read_raw16(const std::filesystem::path& path, glm::dvec2 size_m, glm
     const std::vector<std::byte> bytes = base::read_file(path, kMostPosts * 2);
     const auto side = static_cast<std::uint64_t>(std::llround(std::sqrt(double(bytes.size() / 2))));
     if (side < 2 || side * side * 2 != bytes.size())
-        throw base::input_error(base::ExitCode::kBadInput, path, 0, "size of the file", fmt::format("{} bytes", bytes.size()),
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "size of the file",
+                                fmt::format("{} bytes", bytes.size()),
                                 "a square of 16-bit posts: 2 x N x N bytes");
     if (side > kMostSide)
-        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "size", fmt::format("{0} x {0}", side),
+        throw base::input_error(base::ExitCode::kOverLimit, path, 0, "size",
+                                fmt::format("{0} x {0}", side),
                                 fmt::format("at most {} a side", kMostSide));
     Heightfield field;
     field.width = field.height = static_cast<int>(side);
     field.spacing_m = size_m / double(side - 1);
     field.metres.reserve(side * side);
     for (std::size_t i = 0; i < bytes.size(); i += 2) {
-        const unsigned word = std::to_integer<unsigned>(bytes[i]) | std::to_integer<unsigned>(bytes[i + 1]) << 8;
-        field.metres.push_back(static_cast<float>(height_m.x + (height_m.y - height_m.x) * (word / 65535.0)));
+        const unsigned word =
+            std::to_integer<unsigned>(bytes[i]) | std::to_integer<unsigned>(bytes[i + 1]) << 8;
+        field.metres.push_back(
+            static_cast<float>(height_m.x + (height_m.y - height_m.x) * (word / 65535.0)));
     }
     return field;
 }

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kMostKeys = 10000;
 constexpr int kMostBands = 256;
 
-constexpr int kMostSpheres = 10000;      // of one mesh
+constexpr int kMostSpheres = 10000; // of one mesh
 
 const std::vector<std::string> kObjectKinds = {"sphere", "mesh", "vehicle", "rotor"};
 

@@ -221,7 +221,8 @@ bool TableReader::name_or_none(const char* key, std::string& value) {
     const toml::node* node = find(key);
     if (!node)
         return false;
-    if (!node->is_string() || !(node->as_string()->get().empty() || is_name(node->as_string()->get())))
+    if (!node->is_string() ||
+        !(node->as_string()->get().empty() || is_name(node->as_string()->get())))
         throw wrong(full_name(key), *node, kNameRule);
     value = node->as_string()->get();
     return true;
@@ -305,7 +306,8 @@ std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(std::
     return all;
 }
 
-std::vector<std::pair<int, TableReader::NumberOrTable>> TableReader::integer_keys(int high, const Range& range) {
+std::vector<std::pair<int, TableReader::NumberOrTable>>
+TableReader::integer_keys(int high, const Range& range) {
     std::vector<std::pair<int, NumberOrTable>> all;
     for (const auto& [key, node] : *table_) {
         const std::string entry(key.str());

@@ -16,7 +16,8 @@
 
 namespace sward::scene {
 
-/// How a table spells a key: as asked, or as it was once called. Metres a second ended in "_ms" then, which is milliseconds; such files are still read.
+/// How a table spells a key: as asked, or as it was once called. Metres a second ended in "_ms"
+/// then, which is milliseconds; such files are still read.
 [[nodiscard]] std::string spelt(const toml::table& table, std::string_view key);
 
 /// One table of a TOML file. Asking for a key declares it, so finish() can refuse every key that
@@ -87,7 +88,8 @@ private:
     std::vector<std::string> known_;
 };
 
-/// A whole file's text. Throws Error: kBadInput with the line where it is no TOML, kOverLimit for keys that nest too deep.
+/// A whole file's text. Throws Error: kBadInput with the line where it is no TOML, kOverLimit for
+/// keys that nest too deep.
 [[nodiscard]] toml::table parse_toml(const std::string& text, const std::filesystem::path& file);
 
 /// What a name of a camera, path or arrow may be: it stands on command lines, where a comma means a

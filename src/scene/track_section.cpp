@@ -43,7 +43,8 @@ void read_track_mask(TableReader& table, TrackSpec& tracks) {
     if (table.numbers("mask_size_m", size, {{0.1, 1e6, "m"}, {0.1, 1e6, "m"}}))
         tracks.mask_size_m = {size[0], size[1]};
     if (place && size.empty())
-        throw table.error("mask_size_m", "nothing", "the mask's width and depth (m), beside mask_place");
+        throw table.error("mask_size_m", "nothing",
+                          "the mask's width and depth (m), beside mask_place");
     if (!size.empty() && !place)
         throw table.error("mask_place", "nothing", "the mask's middle, beside mask_size_m");
     if (way && !tracks.mask_way.empty())
@@ -69,12 +70,16 @@ void read_tracks(TableReader table, const std::map<std::string, Path>& paths, Tr
     std::vector<TableReader> feet = table.tables("foot", kMostFeet);
     table.finish();
     // C2 is stable up to here; waves that mu would make faster are held there.
-    const double most = static_cast<double>(shared::track_greatest_wave(static_cast<float>(tracks.cell_m), shared::kTrackStep_s,
-                                                                       static_cast<float>(tracks.recovery_per_s2)));
-    for (const auto& [key, value] : {std::pair{"wave_mps", tracks.wave_mps}, std::pair{"rate_wave_mps", tracks.rate_wave_mps}})
+    const double most = static_cast<double>(
+        shared::track_greatest_wave(static_cast<float>(tracks.cell_m), shared::kTrackStep_s,
+                                    static_cast<float>(tracks.recovery_per_s2)));
+    for (const auto& [key, value] :
+         {std::pair{"wave_mps", tracks.wave_mps}, std::pair{"rate_wave_mps", tracks.rate_wave_mps}})
         if (value > most)
-            throw table.error(key, fmt::format("{}", value),
-                              fmt::format("at most {:.3f} m/s with tracks.cell_m = {} and recovery_per_s2 = {}", most, tracks.cell_m, tracks.recovery_per_s2));
+            throw table.error(
+                key, fmt::format("{}", value),
+                fmt::format("at most {:.3f} m/s with tracks.cell_m = {} and recovery_per_s2 = {}",
+                            most, tracks.cell_m, tracks.recovery_per_s2));
     for (TableReader& foot : feet)
         tracks.feet.push_back(read_foot(foot, paths));
 }

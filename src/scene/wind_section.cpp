@@ -77,7 +77,8 @@ void check_arrows(const std::vector<TableReader>& tables, const std::vector<Wind
 /// Width, depth or radius against the side of the window: air needs somewhere to be.
 void check_size(const TableReader& table, const WindObstacle& obstacle, double side_m) {
     const bool box = obstacle.kind == WindObstacle::Kind::kBox;
-    const double size = box ? std::min(obstacle.size.x, obstacle.size.y) : std::sqrt(2.0) * obstacle.size.x;
+    const double size =
+        box ? std::min(obstacle.size.x, obstacle.size.y) : std::sqrt(2.0) * obstacle.size.x;
     if (obstacle.kind == WindObstacle::Kind::kMesh || size < side_m)
         return;
     throw table.error(box ? "box" : "circle",

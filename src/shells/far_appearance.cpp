@@ -16,8 +16,8 @@ namespace sward::shells {
 
 namespace {
 
-/// What a value at `x` takes of each node (rising): a cubic through the nodes whose slope at a node is that between its neighbours
-/// (Catmull-Rom, uneven); held at both ends.
+/// What a value at `x` takes of each node (rising): a cubic through the nodes whose slope at a node
+/// is that between its neighbours (Catmull-Rom, uneven); held at both ends.
 std::vector<float> cubic_weights(const std::vector<float>& nodes, float x) {
     const std::size_t last = nodes.size() - 1;
     std::vector<float> weights(nodes.size(), 0.0f);
@@ -27,7 +27,8 @@ std::vector<float> cubic_weights(const std::vector<float>& nodes, float x) {
     }
     const auto upper = static_cast<std::size_t>(std::ranges::upper_bound(nodes, x) - nodes.begin());
     const std::size_t lower = upper - 1;
-    const float gap = nodes[upper] - nodes[lower], t = (x - nodes[lower]) / gap, t2 = t * t, t3 = t2 * t;
+    const float gap = nodes[upper] - nodes[lower], t = (x - nodes[lower]) / gap, t2 = t * t,
+                t3 = t2 * t;
     const auto add_slope = [&](std::size_t at, float scale) {
         const std::size_t before = at == 0 ? 0 : at - 1, after = std::min(at + 1, last);
         const float w = scale * gap / (nodes[after] - nodes[before]);
@@ -61,12 +62,14 @@ public:
         for (std::size_t l = 0; l < leans.size(); ++l) {
             for (std::size_t s = 0; s < suns.size(); ++s) {
                 for (std::size_t n = 0; leans[l] * suns[s] != 0 && n < looks_.size(); ++n) {
-                    const grass::FarSample& f = light.samples[light.at(l * views + n / azimuths(), s, n % azimuths())];
+                    const grass::FarSample& f =
+                        light.samples[light.at(l * views + n / azimuths(), s, n % azimuths())];
                     looks_[n].add(leans[l] * suns[s], {{f.sun, f.coverage}, {f.sky, f.height}});
                 }
             }
         }
-        for (auto elevation = light.elevations_deg.rbegin(); elevation != light.elevations_deg.rend(); ++elevation) {
+        for (auto elevation = light.elevations_deg.rbegin();
+             elevation != light.elevations_deg.rend(); ++elevation) {
             sines_.push_back(std::sin(*elevation * shared::kPi / 180));
         }
         // The circle of lean azimuths: one more node beyond each end, mirrored.
@@ -93,26 +96,35 @@ public:
             }
         }
         // A cubic may swing past 0 and 1.
-        const auto within = [](const glm::vec4& v) { return glm::vec4(glm::max(glm::vec3(v), glm::vec3(0)), glm::clamp(v.a, 0.0f, 1.0f)); };
+        const auto within = [](const glm::vec4& v) {
+            return glm::vec4(glm::max(glm::vec3(v), glm::vec3(0)), glm::clamp(v.a, 0.0f, 1.0f));
+        };
         return {within(look.sun), within(look.sky)};
     }
 
 private:
-    [[nodiscard]] std::size_t azimuths() const { return static_cast<std::size_t>(light_.sun_azimuths); }
+    [[nodiscard]] std::size_t azimuths() const {
+        return static_cast<std::size_t>(light_.sun_azimuths);
+    }
 
     [[nodiscard]] Look at_node(std::size_t node, std::size_t row, float sun_azimuth) const {
         const std::size_t count = light_.lean_azimuths_deg.size();
         const bool mirrored = count > 1 && (node == 0 || node == count + 1);
-        const std::size_t azimuth = count == 1 ? 0 : node == 0 ? 1 : node == count + 1 ? count - 2 : node - 1;
+        const std::size_t azimuth = count == 1          ? 0
+                                    : node == 0         ? 1
+                                    : node == count + 1 ? count - 2
+                                                        : node - 1;
         const std::size_t first = (azimuth * light_.elevations_deg.size() + row) * azimuths();
         const auto n = static_cast<std::ptrdiff_t>(azimuths());
-        const float place = (mirrored ? -sun_azimuth : sun_azimuth) / (2 * shared::kPi) * static_cast<float>(n);
+        const float place =
+            (mirrored ? -sun_azimuth : sun_azimuth) / (2 * shared::kPi) * static_cast<float>(n);
         const float t = place - std::floor(place);
-        const float weights[4] = {0.5f * t * (t * (2 - t) - 1), 0.5f * (t * t * (3 * t - 5) + 2), 0.5f * t * (t * (4 - 3 * t) + 1),
-                                  0.5f * t * t * (t - 1)};
+        const float weights[4] = {0.5f * t * (t * (2 - t) - 1), 0.5f * (t * t * (3 * t - 5) + 2),
+                                  0.5f * t * (t * (4 - 3 * t) + 1), 0.5f * t * t * (t - 1)};
         Look look;
         for (std::ptrdiff_t i = 0; i < 4; ++i) {
-            const std::ptrdiff_t a = ((static_cast<std::ptrdiff_t>(std::floor(place)) + i - 1) % n + n) % n;
+            const std::ptrdiff_t a =
+                ((static_cast<std::ptrdiff_t>(std::floor(place)) + i - 1) % n + n) % n;
             look.add(weights[i], looks_[first + static_cast<std::size_t>(a)]);
         }
         return look;
@@ -125,13 +137,18 @@ private:
 };
 
 /// Angle from the direction to the eye to that of `to`, from x towards z.
-float angle_of(glm::vec2 to) { return std::atan2(to.y, to.x); }
+float angle_of(glm::vec2 to) {
+    return std::atan2(to.y, to.x);
+}
 
 } // namespace
 
-std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light, const glm::vec4& wind) {
+std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::Light& light,
+                                    const glm::vec4& wind) {
     const float speed = glm::length(glm::vec2(wind));
-    const CanopyLight canopy(table, shared::bend_intensity(speed, wind.w), std::asin(glm::clamp(light.to_sun.y, -1.0f, 1.0f)) * 180 / shared::kPi);
+    const CanopyLight canopy(table, shared::bend_intensity(speed, wind.w),
+                             std::asin(glm::clamp(light.to_sun.y, -1.0f, 1.0f)) * 180 /
+                                 shared::kPi);
     const float sun_heading = angle_of({light.to_sun.x, light.to_sun.z});
     const float lean_heading = speed > 0 ? angle_of(glm::vec2(wind)) : 0;
     const glm::vec4 sun(light.sun, 1);
@@ -139,8 +156,10 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
     constexpr int kTexels = FarAppearance::kElevations * FarAppearance::kAzimuths;
     std::vector<glm::vec4> texels(2 * kTexels);
     for (int i = 0; i < kTexels; ++i) {
-        const float azimuth = 2 * shared::kPi * static_cast<float>(i % FarAppearance::kAzimuths) / FarAppearance::kAzimuths;
-        const float sine = static_cast<float>(i / FarAppearance::kAzimuths) / (FarAppearance::kElevations - 1);
+        const float azimuth = 2 * shared::kPi * static_cast<float>(i % FarAppearance::kAzimuths) /
+                              FarAppearance::kAzimuths;
+        const float sine =
+            static_cast<float>(i / FarAppearance::kAzimuths) / (FarAppearance::kElevations - 1);
         const Look look = canopy.at(sine, azimuth, azimuth + lean_heading - sun_heading);
         texels[static_cast<std::size_t>(i)] = sun * look.sun;
         texels[static_cast<std::size_t>(i + kTexels)] = sky * look.sky;
@@ -149,14 +168,16 @@ std::vector<glm::vec4> canopy_table(const grass::FarLight& table, const shared::
 }
 
 void FarAppearance::update(const shared::Light& light, const shared::WindField& wind) {
-    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 && glm::vec4(wind.mean, 0, wind.response) == wind_) {
+    if (table_.id() && std::memcmp(&light, &light_, sizeof(light)) == 0 &&
+        glm::vec4(wind.mean, 0, wind.response) == wind_) {
         return;
     }
     light_ = light;
     wind_ = {wind.mean, 0, wind.response};
     std::vector<glm::vec4> texels;
     for (int n = 0; n < shared::kFarWinds; ++n) {
-        const std::vector<glm::vec4> one = canopy_table(set_.far_light, light, {shared::far_wind(wind, n), 0, wind_.w});
+        const std::vector<glm::vec4> one =
+            canopy_table(set_.far_light, light, {shared::far_wind(wind, n), 0, wind_.w});
         texels.insert(texels.end(), one.begin(), one.end());
     }
     if (!table_.id()) {
@@ -167,6 +188,8 @@ void FarAppearance::update(const shared::Light& light, const shared::WindField& 
     table_.upload(0, GL_RGBA, GL_FLOAT, texels.data());
 }
 
-void FarAppearance::bind() const { table_.bind(TEX_FAR_APPEARANCE); }
+void FarAppearance::bind() const {
+    table_.bind(TEX_FAR_APPEARANCE);
+}
 
 } // namespace sward::shells

@@ -10,7 +10,8 @@ namespace sward::shells {
 namespace {
 
 constexpr int kColumns = shared::kBlockCells; // of a slice's strip
-constexpr int kRows = 3;                      // of level 0's strips: enough for their bend; each costs 9 vertices a slice
+constexpr int kRows =
+    3; // of level 0's strips: enough for their bend; each costs 9 vertices a slice
 
 std::vector<std::string> defines(FarPass::Family family, bool aov, bool block_shapes) {
     std::vector<std::string> out;
@@ -31,7 +32,8 @@ gl::Buffer strip_indices() {
     for (int row = 0; row < kRows; ++row) {
         for (int column = 0; column < kColumns; ++column) {
             const int at = row * (kColumns + 1) + column;
-            for (const int corner : {at, at + 1, at + kColumns + 1, at + 1, at + kColumns + 2, at + kColumns + 1}) {
+            for (const int corner :
+                 {at, at + 1, at + kColumns + 1, at + 1, at + kColumns + 2, at + kColumns + 1}) {
                 indices.push_back(static_cast<std::uint16_t>(corner));
             }
         }
@@ -42,8 +44,9 @@ gl::Buffer strip_indices() {
 } // namespace
 
 FarPass::FarPass(Family family, bool aov, bool block_shapes)
-    : family_(family), program_(family == Family::kShells ? "shells" : "slices", {"shells/far.vert", "shells/far.frag"},
-                                defines(family, aov, block_shapes)),
+    : family_(family),
+      program_(family == Family::kShells ? "shells" : "slices",
+               {"shells/far.vert", "shells/far.frag"}, defines(family, aov, block_shapes)),
       strip_(strip_indices()), shares_(sizeof(shared::FarShares)) {
     glCreateVertexArrays(1, &strip_array_);
     glVertexArrayElementBuffer(strip_array_, strip_.id());
@@ -70,7 +73,8 @@ void FarPass::draw_level(std::size_t k, const Inputs& inputs) const {
         glBindVertexArray(strip_array_);
         const int rows = k == 0 ? kRows : 1; // further off, a slice is some pixels tall
         program_.set("rows", static_cast<float>(rows));
-        glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * rows, GL_UNSIGNED_SHORT, nullptr, instances);
+        glDrawElementsInstanced(GL_TRIANGLES, 6 * kColumns * rows, GL_UNSIGNED_SHORT, nullptr,
+                                instances);
     }
 }
 

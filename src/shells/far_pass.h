@@ -11,9 +11,10 @@
 
 namespace sward::shells {
 
-/// Draws one family of the far tier: the shells, or the slices across x and z. Before: frame constants and block samples are bound,
-/// the ground and the blades are drawn. (A depth pass first, then a shading pass at equal depth, was a third slower in software:
-/// the vertices and the depth tests cost more than the light that they spare.)
+/// Draws one family of the far tier: the shells, or the slices across x and z. Before: frame
+/// constants and block samples are bound, the ground and the blades are drawn. (A depth pass first,
+/// then a shading pass at equal depth, was a third slower in software: the vertices and the depth
+/// tests cost more than the light that they spare.)
 class FarPass {
 public:
     enum class Family { kShells, kSlices };

@@ -16,7 +16,9 @@ void check_images(const grass::TextureArray& array) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
     if (array.layers > limit) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("grass set: found {} images in one array, this GPU takes {}", array.layers, limit));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("grass set: found {} images in one array, this GPU takes {}",
+                                      array.layers, limit));
     }
 }
 
@@ -45,13 +47,19 @@ gl::Texture upload(const grass::TextureArray& array, std::uint32_t wrap_t) {
 FarTextures::FarTextures(const grass::GrassSet& set) {
     for (const grass::FarLevel& level : set.levels) {
         if (level.layers_shape.mips.empty()) {
-            levels_.push_back({upload(level.layers, GL_REPEAT), upload(level.slices, GL_CLAMP_TO_EDGE), {}, {}, level.layer_count,
+            levels_.push_back({upload(level.layers, GL_REPEAT),
+                               upload(level.slices, GL_CLAMP_TO_EDGE),
+                               {},
+                               {},
+                               level.layer_count,
                                level.slice_count});
             continue;
         }
         block_shapes_ = true; // of all levels: the reader sees to it
-        levels_.push_back({upload(grass::id_planes(level.layers), GL_REPEAT), upload(grass::id_planes(level.slices), GL_CLAMP_TO_EDGE),
-                           upload(level.layers_shape, GL_REPEAT), upload(level.slices_shape, GL_CLAMP_TO_EDGE), level.layer_count,
+        levels_.push_back({upload(grass::id_planes(level.layers), GL_REPEAT),
+                           upload(grass::id_planes(level.slices), GL_CLAMP_TO_EDGE),
+                           upload(level.layers_shape, GL_REPEAT),
+                           upload(level.slices_shape, GL_CLAMP_TO_EDGE), level.layer_count,
                            level.slice_count});
     }
 }

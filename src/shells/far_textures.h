@@ -13,7 +13,8 @@ class FarTextures {
 public:
     struct Level {
         gl::Texture layers, slices;
-        gl::Texture layers_shape, slices_shape; ///< BC5, where the set has them: `layers` and `slices` are ids alone then
+        gl::Texture layers_shape,
+            slices_shape; ///< BC5, where the set has them: `layers` and `slices` are ids alone then
         int layer_count = 0;
         int slice_count = 0;
     };

@@ -9,7 +9,8 @@ namespace sward::shells {
 
 void CanopyTargets::require(int width, int height, int samples) {
     const gl::TextureShape& now = depth_.shape();
-    if (depth_.id() && now.width == width && now.height == height && sample_depth_.shape().samples == samples) {
+    if (depth_.id() && now.width == width && now.height == height &&
+        sample_depth_.shape().samples == samples) {
         return;
     }
     surface_ = gl::Framebuffer();
@@ -64,7 +65,8 @@ gl::Program marcher(const char* name, std::vector<std::string> defines) {
 }
 
 std::vector<std::filesystem::path> canopy_stages(bool surface) {
-    return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert", "shells/surface_canopy.frag"}
+    return surface ? std::vector<std::filesystem::path>{"shells/surface_canopy.vert",
+                                                        "shells/surface_canopy.frag"}
                    : std::vector<std::filesystem::path>{"shells/canopy.vert", "shells/canopy.frag"};
 }
 
@@ -96,7 +98,8 @@ std::vector<std::string> MarchPass::Variant::with(std::vector<std::string> defin
 }
 
 MarchPass::Kinds::Kinds(const Variant& variant)
-    : columns(marcher("columns", variant.with({"COLUMNS"}))), slabs(marcher("slabs", variant.with({}))),
+    : columns(marcher("columns", variant.with({"COLUMNS"}))),
+      slabs(marcher("slabs", variant.with({}))),
       crest_columns(marcher("columns at crests", variant.with({"COLUMNS", "CREST"}))),
       crest_slabs(marcher("slabs at crests", variant.with({"CREST"}))) {}
 
@@ -107,9 +110,12 @@ void MarchPass::Kinds::reload() {
 }
 
 MarchPass::MarchPass(bool aov, bool surface, bool land)
-    : canopy_("canopy", canopy_stages(surface)), canopy_samples_("canopy's samples", {"shells/canopy.vert"}),
-      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"}, Variant{false, surface, land, false, false}.with({})),
-      kinds_({aov, surface, land, false, false}), aov_(aov), surface_(surface), land_(land), counts_(2 * sizeof(std::uint32_t)) {
+    : canopy_("canopy", canopy_stages(surface)),
+      canopy_samples_("canopy's samples", {"shells/canopy.vert"}),
+      choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"},
+              Variant{false, surface, land, false, false}.with({})),
+      kinds_({aov, surface, land, false, false}), aov_(aov), surface_(surface), land_(land),
+      counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
 }
@@ -132,7 +138,8 @@ glm::uvec2 MarchPass::work() const {
     return {counts[0], counts[1]};
 }
 
-void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh) {
+void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks,
+                            const terrain::BlockMesh& mesh) {
     targets.bind_for_drawing();
     constexpr float kFar[4] = {0, 0, 0, 0};
     glClearBufferfv(GL_DEPTH, 0, kFar);
@@ -147,7 +154,8 @@ void MarchPass::draw_canopy(const CanopyTargets& targets, int blocks, const terr
     glDisable(GL_CULL_FACE);
 }
 
-void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m) {
+void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh,
+                             glm::vec3 origin, float apart_m) {
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     canopy_.use();
@@ -158,7 +166,8 @@ void MarchPass::draw_surface(const SurfaceTargets& targets, const SurfaceCanopy&
         canopy_.set("behind", behind);
         mesh.draw();
     };
-    // Through the top or a wall, from within, or to the ground: what is nearest. First and second share a target.
+    // Through the top or a wall, from within, or to the ground: what is nearest. First and second
+    // share a target.
     const auto leave = [&](const CanopyTargets& from, bool second) {
         from.depth().bind(TEX_CANOPY_DEPTH);
         clear_depth(targets.exit);
@@ -207,18 +216,21 @@ void MarchPass::choose(const Inputs& inputs) {
     }
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE); // what a shader does not write is undefined
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE,
+                GL_FALSE); // what a shader does not write is undefined
     if (inputs.fine && !fine_choose_) {
-        fine_choose_ = std::make_unique<gl::Program>("march's kinds, fine ground",
-                                                     std::vector<std::filesystem::path>{"shells/march.vert", "shells/march_choose.frag"},
-                                                     Variant{false, false, land_, false, true}.with({}));
+        fine_choose_ = std::make_unique<gl::Program>(
+            "march's kinds, fine ground",
+            std::vector<std::filesystem::path>{"shells/march.vert", "shells/march_choose.frag"},
+            Variant{false, false, land_, false, true}.with({}));
     }
     triangle(inputs.fine ? *fine_choose_ : choose_, inputs, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_GREATER);
 }
 
-void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const {
+void MarchPass::draw_kind(int kind, const gl::Program& plain, const gl::Program& crest,
+                          const Inputs& inputs) const {
     inputs.textures.bind_kind(kind);
     for (const gl::Program* program : {&plain, &crest}) {
         program->use();

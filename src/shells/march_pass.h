@@ -23,11 +23,14 @@ public:
     /// `samples` a pixel of the scene has, for depth of its own; 0: none is kept.
     void require(int width, int height, int samples = 0);
     void bind_for_drawing() const { surface_.bind(depth_.shape().width, depth_.shape().height); }
-    void bind_samples_for_drawing() const { samples_.bind(depth_.shape().width, depth_.shape().height); }
+    void bind_samples_for_drawing() const {
+        samples_.bind(depth_.shape().width, depth_.shape().height);
+    }
     /// At units from TEX_CANOPY_DEPTH or TEX_SECOND_DEPTH on.
     void bind_textures(std::uint32_t first) const;
     [[nodiscard]] const gl::Texture& depth() const { return depth_; }
-    /// Where the scene's samples lie in a pixel, 0..1: x of four, then y. Fewer count more than once.
+    /// Where the scene's samples lie in a pixel, 0..1: x of four, then y. Fewer count more than
+    /// once.
     [[nodiscard]] const std::array<glm::vec4, 2>& places() const { return places_; }
     [[nodiscard]] const gl::Texture& ground() const { return ground_; }
 
@@ -39,16 +42,17 @@ private:
     std::array<glm::vec4, 2> places_{glm::vec4(0.5f), glm::vec4(0.5f)};
 };
 
-/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first and next. `exit` holds in place of the ground, for either, how
-/// long the way is from there to the ground or out again, and how high over the ground it ends (m); 0: it was not found.
+/// The same of a mesh's canopy, which a ray may leave and meet again: where it enters first and
+/// next. `exit` holds in place of the ground, for either, how long the way is from there to the
+/// ground or out again, and how high over the ground it ends (m); 0: it was not found.
 struct SurfaceTargets {
     CanopyTargets first, exit, second;
     void require(int width, int height);
     void bind_textures() const;
 };
 
-/// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md). First each pixel's kind of march is chosen, as a
-/// depth; then each kind is drawn over its own pixels.
+/// Draws the far field: one ray a pixel, marched through the canopy (docs/far-field.md). First each
+/// pixel's kind of march is chosen, as a depth; then each kind is drawn over its own pixels.
 class MarchPass {
 public:
     /// `surface`: over a mesh.
@@ -57,29 +61,36 @@ public:
     MarchPass(const MarchPass&) = delete;
     MarchPass& operator=(const MarchPass&) = delete;
 
-    /// The canopy's upper surface over the visible blocks. Before: frame constants and block samples are bound. After: another framebuffer is.
+    /// The canopy's upper surface over the visible blocks. Before: frame constants and block
+    /// samples are bound. After: another framebuffer is.
     void draw_canopy(const CanopyTargets& targets, int blocks, const terrain::BlockMesh& mesh);
 
-    /// A mesh's, its space's origin at `origin` (anchor-relative); `apart_m`: its parts are at least so far apart along a ray.
-    void draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin, float apart_m);
+    /// A mesh's, its space's origin at `origin` (anchor-relative); `apart_m`: its parts are at
+    /// least so far apart along a ray.
+    void draw_surface(const SurfaceTargets& targets, const SurfaceCanopy& mesh, glm::vec3 origin,
+                      float apart_m);
 
     struct Inputs {
         const MarchTextures& textures;
         const CanopyTargets& canopy;
         const SurfaceTargets* surface = nullptr; ///< over a mesh; `canopy` is its first
         glm::vec3 origin{0};                     ///< of the mesh's space, anchor-relative
-        int samples = 1;        ///< a pixel of the scene has
-        float eye_height_m = 0; ///< over the ground
-        bool fine = false;      ///< ground finer than the clipmap: Clipmap::bind_posts came before
-        bool count = false;     ///< steps and reads, at the cost of two atomic additions a pixel
+        int samples = 1;                         ///< a pixel of the scene has
+        float eye_height_m = 0;                  ///< over the ground
+        bool fine = false;  ///< ground finer than the clipmap: Clipmap::bind_posts came before
+        bool count = false; ///< steps and reads, at the cost of two atomic additions a pixel
     };
-    /// Chooses the kinds, into the depth of the framebuffer that is bound. Before: frame constants and clipmap are bound.
+    /// Chooses the kinds, into the depth of the framebuffer that is bound. Before: frame constants
+    /// and clipmap are bound.
     void choose(const Inputs& inputs);
-    /// Resolves the scene, seen through the far field, where there is any. Before: choose(), and the scene's textures and the resolved targets are bound.
+    /// Resolves the scene, seen through the far field, where there is any. Before: choose(), and
+    /// the scene's textures and the resolved targets are bound.
     void execute(const Inputs& inputs);
-    /// Pixels of the last execute() that were marched through slabs (x) and columns (y); waits for the GPU.
+    /// Pixels of the last execute() that were marched through slabs (x) and columns (y); waits for
+    /// the GPU.
     [[nodiscard]] glm::uvec2 pixels() const;
-    /// Steps of the last execute() that counted, and texels that it and the choice read; waits for the GPU.
+    /// Steps of the last execute() that counted, and texels that it and the choice read; waits for
+    /// the GPU.
     [[nodiscard]] glm::uvec2 work() const;
     void reload();
 
@@ -95,7 +106,8 @@ private:
         gl::Program crest_columns, crest_slabs; ///< of those that may leave it and come to another
         void reload();
     };
-    void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest, const Inputs& inputs) const;
+    void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest,
+                   const Inputs& inputs) const;
     void triangle(const gl::Program& program, const Inputs& inputs, float plane) const;
     [[nodiscard]] const Kinds& kinds_for(const Inputs& inputs);
     gl::Program canopy_, canopy_samples_, choose_;

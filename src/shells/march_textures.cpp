@@ -15,7 +15,9 @@ gl::Texture upload(const grass::TextureArray& array, std::uint32_t format, std::
     GLint limit = 0;
     glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &limit);
     if (array.layers > limit) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("grass set: found {} images in one array, this GPU takes {}", array.layers, limit));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("grass set: found {} images in one array, this GPU takes {}",
+                                      array.layers, limit));
     }
     const int mips = static_cast<int>(array.mips.size());
     gl::Texture texture(format, {array.width, array.height, array.layers, mips});
@@ -37,12 +39,14 @@ MarchTextures::MarchTextures(const grass::FarMedium& march) {
     for (std::size_t kind = 0; kind < images_.size(); ++kind) {
         const bool columns = kind == shared::kMarchColumns;
         const grass::MarchArrays& arrays = columns ? march.columns : march.slabs[kind];
-        images_[kind] = {upload(arrays.density, GL_RGBA16F, GL_HALF_FLOAT), upload(arrays.fibres, GL_RGBA8, GL_UNSIGNED_BYTE)};
+        images_[kind] = {upload(arrays.density, GL_RGBA16F, GL_HALF_FLOAT),
+                         upload(arrays.fibres, GL_RGBA8, GL_UNSIGNED_BYTE)};
         for (gl::Texture* texture : {&images_[kind].density, &images_[kind].fibres}) {
             texture->set_wrap(GL_REPEAT, columns ? GL_REPEAT : GL_CLAMP_TO_EDGE);
         }
     }
-    correction_ = gl::Texture(GL_RGBA32F, {shared::kMarchElevations, shared::kMarchMips, grass::kMarchKinds});
+    correction_ =
+        gl::Texture(GL_RGBA32F, {shared::kMarchElevations, shared::kMarchMips, grass::kMarchKinds});
     correction_.upload(0, GL_RGBA, GL_FLOAT, march.correction.data());
     correction_.set_filter(GL_LINEAR, GL_LINEAR);
     correction_.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);

@@ -20,7 +20,9 @@ namespace {
 int level_count(const scene::Heightfield& elevation) {
     const glm::dvec2 extent = elevation.extent_m();
     const double reach = std::max(extent.x, extent.y);
-    const int levels = 1 + static_cast<int>(std::ceil(std::log2(std::max(reach / (54 * Clipmap::kFinest_m), 1.0))));
+    const int levels =
+        1 +
+        static_cast<int>(std::ceil(std::log2(std::max(reach / (54 * Clipmap::kFinest_m), 1.0))));
     return std::clamp(levels, 6, shared::kMaxClipLevels);
 }
 
@@ -28,8 +30,9 @@ gl::Texture posts_texture(const scene::Heightfield& elevation) {
     GLint limit = 0;
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (elevation.width > limit || elevation.height > limit) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("elevation: found {} x {} posts, expected at most {} a side",
-                                                                  elevation.width, elevation.height, limit));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("elevation: found {} x {} posts, expected at most {} a side",
+                                      elevation.width, elevation.height, limit));
     }
     gl::Texture texture(GL_R32F, {elevation.width, elevation.height});
     texture.upload(0, GL_RED, GL_FLOAT, elevation.metres.data());
@@ -74,10 +77,14 @@ gl::Texture level_texture(std::uint32_t format, int levels) {
 } // namespace
 
 GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& density)
-    : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)), land(land_textures(density)),
-      height_program("clipmap height", {"terrain/clipmap_height.comp"}), surface_program("clipmap surface", {"terrain/clipmap_surface.comp"}),
+    : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)),
+      land(land_textures(density)),
+      height_program("clipmap height", {"terrain/clipmap_height.comp"}),
+      surface_program("clipmap surface", {"terrain/clipmap_surface.comp"}),
       mask_first(density.first_m), mask_size(density.size_m),
-      mask_mode(density.width < 1 ? shared::kMaskNone : density.bounded ? shared::kMaskBounded : shared::kMaskEndless) {
+      mask_mode(density.width < 1 ? shared::kMaskNone
+                : density.bounded ? shared::kMaskBounded
+                                  : shared::kMaskEndless) {
     if (mask_size.x <= 0 || mask_size.y <= 0) { // spread over all of the posts
         mask_size = ground.elevation().extent_m();
         mask_first = -0.5 * mask_size;
@@ -86,12 +93,14 @@ GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& dens
 }
 
 Clipmap::Clipmap(const std::shared_ptr<GroundSource>& source)
-    : source_(source), windows_(static_cast<std::size_t>(level_count(source->surface.elevation()))), heights_(level_texture(GL_R32F, levels())),
-      surfaces_(level_texture(GL_RGBA8, levels())), params_(sizeof(shared::SurfaceParams)) {}
+    : source_(source), windows_(static_cast<std::size_t>(level_count(source->surface.elevation()))),
+      heights_(level_texture(GL_R32F, levels())), surfaces_(level_texture(GL_RGBA8, levels())),
+      params_(sizeof(shared::SurfaceParams)) {}
 
 void Clipmap::update(glm::dvec2 eye) {
     for (int level = 0; level < levels(); ++level) {
-        const glm::dvec2 snapped = glm::round(eye / (spacing(level) * kSnapCells)) * static_cast<double>(kSnapCells);
+        const glm::dvec2 snapped =
+            glm::round(eye / (spacing(level) * kSnapCells)) * static_cast<double>(kSnapCells);
         const Window window{glm::ivec2(snapped) - shared::kClipCells / 2};
         Window& present = windows_[static_cast<std::size_t>(level)];
         if (!filled_ || window != present) {
@@ -161,7 +170,8 @@ void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
         const double period = spacing(level) * shared::kClipCells;
         // Post g is the centre of texel g mod 128: half a texel further.
         const glm::dvec2 offset = glm::fract(anchor / period) + 0.5 / shared::kClipCells;
-        frame.clip[level] = {glm::vec2(offset), static_cast<float>(1 / period), static_cast<float>(spacing(level))};
+        frame.clip[level] = {glm::vec2(offset), static_cast<float>(1 / period),
+                             static_cast<float>(spacing(level))};
     }
 }
 

@@ -3,7 +3,8 @@
 
 namespace sward::terrain {
 
-/// Through a long lens the ground far away needs posts that are finer than its distance says (shared::detail_reach). zoom 1: it does not.
+/// Through a long lens the ground far away needs posts that are finer than its distance says
+/// (shared::detail_reach). zoom 1: it does not.
 struct Detail {
     float start_m = 0; ///< up to here blades may stand, which know the clipmap alone
     float zoom = 1;
@@ -12,7 +13,8 @@ struct Detail {
     [[nodiscard]] float least_reach(float nearest_m, float farthest_m) const;
 };
 
-/// Of a picture with this vertical field of view and focal length in pixels. From 20 degrees on: none, and pictures as ever.
+/// Of a picture with this vertical field of view and focal length in pixels. From 20 degrees on:
+/// none, and pictures as ever.
 [[nodiscard]] Detail detail_of(double fov_deg, double focal_px, double blades_end_m);
 
 } // namespace sward::terrain

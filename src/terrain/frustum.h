@@ -7,7 +7,8 @@
 
 namespace sward::terrain {
 
-/// View volume in anchor-relative metres: four sides and the plane of the eye (reversed depth has no far plane).
+/// View volume in anchor-relative metres: four sides and the plane of the eye (reversed depth has
+/// no far plane).
 class Frustum {
 public:
     explicit Frustum(const glm::mat4& clip_from_world);

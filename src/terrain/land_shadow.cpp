@@ -22,7 +22,8 @@ gl::Texture shadow_texture(const SunSweep& sweep) {
 } // namespace
 
 LandShadow::LandShadow(const scene::Heightfield& elevation)
-    : elevation_(elevation), sweep_(elevation), shown_(shadow_texture(sweep_)), next_(shadow_texture(sweep_)) {}
+    : elevation_(elevation), sweep_(elevation), shown_(shadow_texture(sweep_)),
+      next_(shadow_texture(sweep_)) {}
 
 void LandShadow::follow(const glm::dvec3& to_sun, bool at_once) {
     const bool first = shown_sun_ == glm::dvec3(0);
@@ -39,7 +40,8 @@ void LandShadow::follow(const glm::dvec3& to_sun, bool at_once) {
     if (!sweeping_) {
         return;
     }
-    const int rows = whole ? std::max(sweep_.width(), sweep_.height()) : std::max(kPostsAFrame / sweep_.row_posts(), 1);
+    const int rows = whole ? std::max(sweep_.width(), sweep_.height())
+                           : std::max(kPostsAFrame / sweep_.row_posts(), 1);
     if (!sweep_.advance(rows)) {
         return;
     }
@@ -53,14 +55,19 @@ void LandShadow::follow(const glm::dvec3& to_sun, bool at_once) {
 
 void LandShadow::upload(int rows) {
     const int count = std::min(rows, sweep_.height() - uploaded_);
-    next_.upload_rows(uploaded_, count, GL_RG, GL_HALF_FLOAT, sweep_.seen_from().data() + static_cast<std::ptrdiff_t>(uploaded_) * sweep_.width());
+    next_.upload_rows(uploaded_, count, GL_RG, GL_HALF_FLOAT,
+                      sweep_.seen_from().data() +
+                          static_cast<std::ptrdiff_t>(uploaded_) * sweep_.width());
     uploaded_ += count;
 }
 
-void LandShadow::bind() const { shown_.bind(TEX_LAND_SHADOW); }
+void LandShadow::bind() const {
+    shown_.bind(TEX_LAND_SHADOW);
+}
 
 void LandShadow::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
-    const glm::dvec2 size(sweep_.width(), sweep_.height()), texel = elevation_.spacing_m * static_cast<double>(sweep_.step());
+    const glm::dvec2 size(sweep_.width(), sweep_.height()),
+        texel = elevation_.spacing_m * static_cast<double>(sweep_.step());
     const glm::dvec2 first = -0.5 * elevation_.extent_m(); // of the posts
     frame.shadow_offset = glm::vec2(((anchor - first) / texel + 0.5) / size);
     frame.shadow_per_m = glm::vec2(1.0 / (texel * size));

@@ -9,16 +9,19 @@
 
 namespace sward::terrain {
 
-/// The shadow of the land on the GPU, for every tier (shaders/lib/land_shadow.glsl). Two textures of SunSweep's size, 4 bytes a post each.
+/// The shadow of the land on the GPU, for every tier (shaders/lib/land_shadow.glsl). Two textures
+/// of SunSweep's size, 4 bytes a post each.
 class LandShadow {
 public:
     static constexpr double kStep_deg = 0.1; ///< the sun's way from one shadow to the next
-    static constexpr int kPostsAFrame = 50000; ///< looked at a frame, some 3 ms of one core; uploaded: four times as many
+    static constexpr int kPostsAFrame =
+        50000; ///< looked at a frame, some 3 ms of one core; uploaded: four times as many
 
     explicit LandShadow(const scene::Heightfield& elevation);
 
-    /// Brings the shadow to a sun (unit direction, y up). `at_once`: whole, for exactly this sun; else by a part a frame, the shadow before
-    /// standing until the next is through, and none for a sun that goes on and has moved by less than kStep_deg. The first is always whole.
+    /// Brings the shadow to a sun (unit direction, y up). `at_once`: whole, for exactly this sun;
+    /// else by a part a frame, the shadow before standing until the next is through, and none for a
+    /// sun that goes on and has moved by less than kStep_deg. The first is always whole.
     void follow(const glm::dvec3& to_sun, bool at_once);
     void bind() const;
     /// Fills shadow_offset, shadow_per_m and has_shadow for an anchor (world metres).

@@ -46,7 +46,8 @@ std::array<gl::Texture, 2> land_textures(const scene::DensityMask& mask) {
         return {texture_of({kNone.begin(), kNone.end()}, {1, 1}), texture_of({0, 0, 0, 0}, {1, 1})};
     }
     const glm::ivec2 size(mask.width, mask.height);
-    std::array<gl::Texture, 2> textures = {texture_of(part_of(mask.land, 0), size), texture_of(part_of(mask.land, kChannels), size)};
+    std::array<gl::Texture, 2> textures = {texture_of(part_of(mask.land, 0), size),
+                                           texture_of(part_of(mask.land, kChannels), size)};
     if (mask.outside) {
         const auto& bytes = *mask.outside;
         go_on_with(textures[0], glm::vec4(bytes[1], bytes[2], bytes[3], bytes[4]) / 255.0f);
@@ -64,7 +65,8 @@ glm::vec4 land_constants(const scene::DensityMask& mask, glm::dvec2 size_m) {
     if (mask.land.empty())
         return {0, 1, 0, 0};
     const glm::dvec2 texel = size_m / glm::dvec2(mask.width, mask.height);
-    return {static_cast<float>(std::max(texel.x, texel.y)), static_cast<float>(mask.highest), mask.heights ? 1.0f : 0.0f, 0};
+    return {static_cast<float>(std::max(texel.x, texel.y)), static_cast<float>(mask.highest),
+            mask.heights ? 1.0f : 0.0f, 0};
 }
 
 } // namespace sward::terrain

@@ -10,7 +10,8 @@
 
 namespace sward::terrain {
 
-/// A landcover's bytes as TEX_LAND_COVER and TEX_LAND_GROUND, with mips that are means; one texel of soil where the mask has none.
+/// A landcover's bytes as TEX_LAND_COVER and TEX_LAND_GROUND, with mips that are means; one texel
+/// of soil where the mask has none.
 [[nodiscard]] std::array<gl::Texture, 2> land_textures(const scene::DensityMask& mask);
 
 /// What a texture shows beyond its edge.

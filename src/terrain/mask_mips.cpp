@@ -15,7 +15,8 @@ std::array<float, 3> shares(int i, int fine) {
     if (fine % 2 == 0)
         return {0.5f, 0.5f, 0};
     const float whole = static_cast<float>(2 * n + 1);
-    return {static_cast<float>(n - i) / whole, static_cast<float>(n) / whole, static_cast<float>(i + 1) / whole};
+    return {static_cast<float>(n - i) / whole, static_cast<float>(n) / whole,
+            static_cast<float>(i + 1) / whole};
 }
 
 } // namespace
@@ -30,11 +31,14 @@ std::vector<float> next_mip(const std::vector<float>& texels, glm::ivec2& size) 
             float sum = 0;
             for (int v = 0; v < 3; ++v)
                 for (int u = 0; u < 3; ++u) {
-                    const int i = std::min(2 * x + u, size.x - 1), j = std::min(2 * y + v, size.y - 1);
+                    const int i = std::min(2 * x + u, size.x - 1),
+                              j = std::min(2 * y + v, size.y - 1);
                     sum += down[static_cast<std::size_t>(v)] * along[static_cast<std::size_t>(u)] *
-                           texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(i)];
+                           texels[static_cast<std::size_t>(j) * static_cast<std::size_t>(size.x) +
+                                  static_cast<std::size_t>(i)];
                 }
-            mip[static_cast<std::size_t>(y) * static_cast<std::size_t>(half.x) + static_cast<std::size_t>(x)] = sum;
+            mip[static_cast<std::size_t>(y) * static_cast<std::size_t>(half.x) +
+                static_cast<std::size_t>(x)] = sum;
         }
     }
     size = half;
@@ -44,7 +48,8 @@ std::vector<float> next_mip(const std::vector<float>& texels, glm::ivec2& size) 
 std::vector<std::uint8_t> next_mip(const std::vector<std::uint8_t>& texels, glm::ivec2& size) {
     constexpr std::size_t kChannels = 4;
     const glm::ivec2 half = glm::max(size / 2, glm::ivec2(1));
-    std::vector<std::uint8_t> mip(static_cast<std::size_t>(half.x) * static_cast<std::size_t>(half.y) * kChannels);
+    std::vector<std::uint8_t> mip(static_cast<std::size_t>(half.x) *
+                                  static_cast<std::size_t>(half.y) * kChannels);
     std::uint8_t* out = mip.data();
     for (int y = 0; y < half.y; ++y) {
         const auto down = shares(y, size.y);
@@ -53,10 +58,14 @@ std::vector<std::uint8_t> next_mip(const std::vector<std::uint8_t>& texels, glm:
             std::array<float, kChannels> sum{0.5f, 0.5f, 0.5f, 0.5f}; // to the nearest byte
             for (int v = 0; v < 3; ++v)
                 for (int u = 0; u < 3; ++u) {
-                    const float weight = down[static_cast<std::size_t>(v)] * along[static_cast<std::size_t>(u)];
+                    const float weight =
+                        down[static_cast<std::size_t>(v)] * along[static_cast<std::size_t>(u)];
                     if (weight <= 0)
                         continue;
-                    const auto at = (static_cast<std::size_t>(2 * y + v) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(2 * x + u)) * kChannels;
+                    const auto at =
+                        (static_cast<std::size_t>(2 * y + v) * static_cast<std::size_t>(size.x) +
+                         static_cast<std::size_t>(2 * x + u)) *
+                        kChannels;
                     for (std::size_t channel = 0; channel < kChannels; ++channel)
                         sum[channel] += weight * static_cast<float>(texels[at + channel]);
                 }

@@ -22,7 +22,8 @@ template<class T> void append(std::vector<std::byte>& out, const std::vector<T>&
     out.insert(out.end(), bytes, bytes + items.size() * sizeof(T));
 }
 
-template<class T> void cut(const std::vector<std::byte>& from, std::size_t& at, std::vector<T>& items) {
+template<class T>
+void cut(const std::vector<std::byte>& from, std::size_t& at, std::vector<T>& items) {
     std::memcpy(items.data(), from.data() + at, items.size() * sizeof(T));
     at += items.size() * sizeof(T);
 }
@@ -37,9 +38,12 @@ bool PageMemory::put(PageKey key, const PageContent& content) {
     append(plain, content.changes);
     Kept kept{{}, ++order_, content.epoch, content.moving.size()};
     kept.packed.resize(ZSTD_compressBound(plain.size()));
-    const std::size_t size = ZSTD_compress(kept.packed.data(), kept.packed.size(), plain.data(), plain.size(), kEffort);
+    const std::size_t size =
+        ZSTD_compress(kept.packed.data(), kept.packed.size(), plain.data(), plain.size(), kEffort);
     if (ZSTD_isError(size)) {
-        throw base::Error(base::ExitCode::kFailure, std::string("tracks: cannot compress a page: ") + ZSTD_getErrorName(size));
+        throw base::Error(base::ExitCode::kFailure,
+                          std::string("tracks: cannot compress a page: ") +
+                              ZSTD_getErrorName(size));
     }
     kept.packed.resize(size);
     kept.packed.shrink_to_fit();
@@ -47,7 +51,10 @@ bool PageMemory::put(PageKey key, const PageContent& content) {
     kept_[{key.y, key.x}] = std::move(kept);
     const std::size_t before = lost_;
     while (bytes_ > most_bytes_ && !kept_.empty()) {
-        const auto oldest = std::min_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) { return a.second.order < b.second.order; });
+        const auto oldest =
+            std::min_element(kept_.begin(), kept_.end(), [](const auto& a, const auto& b) {
+                return a.second.order < b.second.order;
+            });
         bytes_ -= oldest->second.packed.size();
         kept_.erase(oldest);
         ++lost_;
@@ -67,8 +74,11 @@ std::optional<PageContent> PageMemory::look(PageKey key) const {
     content.moving.resize(kept.moving);
     content.bends.resize(kept.moving / 2 * kBlockCells);
     content.changes.resize(content.bends.size());
-    std::vector<std::byte> plain(kCells * sizeof(std::uint32_t) + kept.moving * sizeof(std::int64_t) + 2 * content.bends.size() * sizeof(glm::vec4));
-    const std::size_t size = ZSTD_decompress(plain.data(), plain.size(), kept.packed.data(), kept.packed.size());
+    std::vector<std::byte> plain(kCells * sizeof(std::uint32_t) +
+                                 kept.moving * sizeof(std::int64_t) +
+                                 2 * content.bends.size() * sizeof(glm::vec4));
+    const std::size_t size =
+        ZSTD_decompress(plain.data(), plain.size(), kept.packed.data(), kept.packed.size());
     if (ZSTD_isError(size) || size != plain.size()) {
         throw base::Error(base::ExitCode::kFailure, "tracks: a page's memory is damaged");
     }

@@ -14,13 +14,15 @@ namespace sward::tracks {
 
 /// All that a page holds.
 struct PageContent {
-    std::vector<std::uint32_t> pressed;    ///< words of track_pack(), in units of `epoch`
-    std::vector<std::int64_t> moving;      ///< blocks that move: number in the page, last step that moves it
+    std::vector<std::uint32_t> pressed; ///< words of track_pack(), in units of `epoch`
+    std::vector<std::int64_t>
+        moving; ///< blocks that move: number in the page, last step that moves it
     std::vector<glm::vec4> bends, changes; ///< of their cells: theta, omega; their changes
     std::int64_t epoch = 0;
 };
 
-/// Pages that are out of the pool, as they were, bit for bit: compressed without loss, on a budget. Over it those that were put first go.
+/// Pages that are out of the pool, as they were, bit for bit: compressed without loss, on a budget.
+/// Over it those that were put first go.
 class PageMemory {
 public:
     explicit PageMemory(std::size_t most_bytes) : most_bytes_(most_bytes) {}

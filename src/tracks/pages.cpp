@@ -13,7 +13,8 @@ int Pages::slot_of(PageKey key) const {
 }
 
 int Pages::open(PageKey key) {
-    const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Page& page) { return !page.used; });
+    const auto free =
+        std::find_if(slots_.begin(), slots_.end(), [](const Page& page) { return !page.used; });
     if (free == slots_.end()) {
         return -1;
     }
@@ -36,7 +37,8 @@ void Pages::clear() {
     std::fill(slots_.begin(), slots_.end(), Page{});
 }
 
-int Pages::least_needed(std::span<const glm::dvec2> places, std::int64_t step, std::span<const PageKey> kept) const {
+int Pages::least_needed(std::span<const glm::dvec2> places, std::int64_t step,
+                        std::span<const PageKey> kept) const {
     int worst = -1;
     std::pair<bool, double> worst_at{false, -1};
     for (const auto& [unused, slot] : slot_of_) {
@@ -47,7 +49,8 @@ int Pages::least_needed(std::span<const glm::dvec2> places, std::int64_t step, s
         double nearest = std::numeric_limits<double>::max();
         const glm::dvec2 low = corner(page.key);
         for (const glm::dvec2& place : places) {
-            nearest = std::min(nearest, glm::distance(place, glm::clamp(place, low, low + side_m_)));
+            nearest =
+                std::min(nearest, glm::distance(place, glm::clamp(place, low, low + side_m_)));
         }
         const std::pair<bool, double> at{page.busy_until < step, nearest};
         if (worst < 0 || at > worst_at) {
@@ -58,7 +61,9 @@ int Pages::least_needed(std::span<const glm::dvec2> places, std::int64_t step, s
     return worst;
 }
 
-PageKey Pages::key_at(glm::dvec2 xz) const { return PageKey(glm::floor(xz / side_m_)); }
+PageKey Pages::key_at(glm::dvec2 xz) const {
+    return PageKey(glm::floor(xz / side_m_));
+}
 
 std::vector<int> Pages::in_order() const {
     std::vector<int> out;
@@ -86,12 +91,14 @@ std::vector<glm::ivec4> Pages::table() const {
             at = (at + 1) & mask;
         }
         const auto& blocks = slots_[static_cast<std::size_t>(slot)].blocks;
-        const bool moves = std::any_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.place >= 0; });
+        const bool moves = std::any_of(blocks.begin(), blocks.end(),
+                                       [](const Block& block) { return block.place >= 0; });
         out[static_cast<std::size_t>(at)] = {page.x, page.y, slot, moves ? 1 : 0};
     }
     for (const Page& page : slots_) {
         for (std::size_t n = 0; n < page.blocks.size(); n += 4) {
-            out.emplace_back(page.blocks[n].place, page.blocks[n + 1].place, page.blocks[n + 2].place, page.blocks[n + 3].place);
+            out.emplace_back(page.blocks[n].place, page.blocks[n + 1].place,
+                             page.blocks[n + 2].place, page.blocks[n + 3].place);
         }
     }
     return out;

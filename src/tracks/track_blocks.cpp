@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The blocks of pages that move: which are woken, what a step does to each, when they are at rest again.
+// The blocks of pages that move: which are woken, what a step does to each, when they are at rest
+// again.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,17 +21,21 @@ struct BlockRange {
 BlockRange blocks_of(const Pages& pages, PageKey key, const Print& print, double beyond) {
     const double side = pages.side_m() / shared::kTrackRow;
     const glm::dvec2 corner = pages.corner(key), last(shared::kTrackRow - 1);
-    return {glm::ivec2(glm::clamp(glm::floor((print.low - beyond - corner) / side), glm::dvec2(0), last + 1.0)),
-            glm::ivec2(glm::clamp(glm::floor((print.high + beyond - corner) / side), glm::dvec2(-1), last))};
+    return {glm::ivec2(glm::clamp(glm::floor((print.low - beyond - corner) / side), glm::dvec2(0),
+                                  last + 1.0)),
+            glm::ivec2(glm::clamp(glm::floor((print.high + beyond - corner) / side), glm::dvec2(-1),
+                                  last))};
 }
 
 bool meets(const Print& print, glm::dvec2 low, glm::dvec2 high) {
-    return print.high.x >= low.x && print.low.x <= high.x && print.high.y >= low.y && print.low.y <= high.y;
+    return print.high.x >= low.x && print.low.x <= high.x && print.high.y >= low.y &&
+           print.low.y <= high.y;
 }
 
 } // namespace
 
-/// Blocks that have come to rest: what is left of their bends is nothing (steps_to_rest), and they cost nothing from here on. With k = 0 bends stay.
+/// Blocks that have come to rest: what is left of their bends is nothing (steps_to_rest), and they
+/// cost nothing from here on. With k = 0 bends stay.
 void Tracks::settle(std::int64_t number) {
     for (Pages::Page& page : pages_.slots()) {
         if (!page.used || page.busy_until < 0 || spec_.recovery_per_s2 <= 0) {
@@ -52,7 +57,8 @@ void Tracks::lay_to_rest(Block& block) {
     table_changed_ = true;
 }
 
-/// A place in the pool of what moves, set to nothing; of a block that is nearest to rest where all are taken. -1: none is nearer to it than `until`.
+/// A place in the pool of what moves, set to nothing; of a block that is nearest to rest where all
+/// are taken. -1: none is nearer to it than `until`.
 int Tracks::take_place(std::int64_t until) {
     const int most = spec_.pages * kMovingBlocksAPage;
     if (free_places_.empty() && places_ever_ < most) {
@@ -65,7 +71,8 @@ int Tracks::take_place(std::int64_t until) {
         for (const int slot : pages_.in_order()) {
             Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
             for (Block& block : page.blocks) {
-                if (block.place >= 0 && block.busy_until < until && (nearest == nullptr || block.busy_until < nearest->busy_until)) {
+                if (block.place >= 0 && block.busy_until < until &&
+                    (nearest == nullptr || block.busy_until < nearest->busy_until)) {
                     nearest = &block;
                     of_page = &page;
                 }
@@ -89,7 +96,8 @@ void Tracks::wake(const std::vector<Print>& prints, std::int64_t number, bool fu
     std::vector<PageKey> kept;
     for (const Print& print : prints) {
         const double beyond = full ? kWakeBeyond_m : 0;
-        const PageKey low = pages_.key_at(print.low - beyond), high = pages_.key_at(print.high + beyond);
+        const PageKey low = pages_.key_at(print.low - beyond),
+                      high = pages_.key_at(print.high + beyond);
         for (int z = low.y; z <= high.y; ++z) {
             for (int x = low.x; x <= high.x; ++x) {
                 const bool there = std::find(kept.begin(), kept.end(), PageKey(x, z)) != kept.end();
@@ -131,13 +139,22 @@ void Tracks::wake_blocks(int slot, const Print& print, std::int64_t until) {
     }
 }
 
-/// Place in the pool of what moves of a block beside a page's, which may be another page's; -1: at rest.
+/// Place in the pool of what moves of a block beside a page's, which may be another page's; -1: at
+/// rest.
 int Tracks::place_of(PageKey key, glm::ivec2 block) const {
     constexpr int kRow = shared::kTrackRow;
-    const glm::ivec2 over(block.x < 0 ? -1 : block.x >= kRow ? 1 : 0, block.y < 0 ? -1 : block.y >= kRow ? 1 : 0);
+    const glm::ivec2 over(block.x < 0       ? -1
+                          : block.x >= kRow ? 1
+                                            : 0,
+                          block.y < 0       ? -1
+                          : block.y >= kRow ? 1
+                                            : 0);
     const int slot = pages_.slot_of(key + over);
     block -= over * kRow;
-    return slot < 0 ? -1 : pages_.slots()[static_cast<std::size_t>(slot)].blocks[static_cast<std::size_t>(block.y * kRow + block.x)].place;
+    return slot < 0 ? -1
+                    : pages_.slots()[static_cast<std::size_t>(slot)]
+                          .blocks[static_cast<std::size_t>(block.y * kRow + block.x)]
+                          .place;
 }
 
 TrackPass::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t number) const {
@@ -146,7 +163,9 @@ TrackPass::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t n
     for (const int slot : pages_.in_order()) {
         const Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
         const glm::dvec2 corner = pages_.corner(page.key);
-        const bool met = std::any_of(prints.begin(), prints.end(), [&](const Print& print) { return meets(print, corner, corner + pages_.side_m()); });
+        const bool met = std::any_of(prints.begin(), prints.end(), [&](const Print& print) {
+            return meets(print, corner, corner + pages_.side_m());
+        });
         if (!met && page.busy_until < number) {
             continue;
         }
@@ -173,7 +192,9 @@ TrackPass::Work Tracks::work_of(const std::vector<Print>& prints, std::int64_t n
             out.prints = static_cast<int>(touched.size());
             out.first_cell = at * shared::kTrackBlock;
             out.own = block.place;
-            out.beside = {place_of(page.key, at - glm::ivec2(1, 0)), place_of(page.key, at + glm::ivec2(1, 0)), place_of(page.key, at - glm::ivec2(0, 1)),
+            out.beside = {place_of(page.key, at - glm::ivec2(1, 0)),
+                          place_of(page.key, at + glm::ivec2(1, 0)),
+                          place_of(page.key, at - glm::ivec2(0, 1)),
                           place_of(page.key, at + glm::ivec2(0, 1))};
             out.slope = page.slope;
             for (const Print* print : touched) {

@@ -14,7 +14,8 @@ namespace {
 
 constexpr std::size_t kCells = std::size_t{shared::kTrackCells} * shared::kTrackCells;
 constexpr std::size_t kBlockCells = std::size_t{shared::kTrackBlock} * shared::kTrackBlock;
-constexpr std::size_t kPageBytes = shared::kTrackWords * sizeof(std::uint32_t), kBlockBytes = kBlockCells * sizeof(glm::vec4);
+constexpr std::size_t kPageBytes = shared::kTrackWords * sizeof(std::uint32_t),
+                      kBlockBytes = kBlockCells * sizeof(glm::vec4);
 constexpr int kLeastSlots = 8, kLeastPlaces = 64;
 static_assert(shared::kTrackBlock == TRACK_GROUP);
 
@@ -23,31 +24,41 @@ void grow(gl::Buffer& buffer, std::size_t bytes) {
     gl::Buffer next(bytes);
     next.clear_to_zero();
     if (buffer.bytes() > 0) {
-        glCopyNamedBufferSubData(buffer.id(), next.id(), 0, 0, static_cast<GLsizeiptr>(buffer.bytes()));
+        glCopyNamedBufferSubData(buffer.id(), next.id(), 0, 0,
+                                 static_cast<GLsizeiptr>(buffer.bytes()));
     }
     buffer = std::move(next);
 }
 
 void zero(const gl::Buffer& buffer, std::size_t first, std::size_t bytes) {
-    glClearNamedBufferSubData(buffer.id(), GL_R32UI, static_cast<GLintptr>(first), static_cast<GLsizeiptr>(bytes), GL_RED_INTEGER, GL_UNSIGNED_INT,
+    glClearNamedBufferSubData(buffer.id(), GL_R32UI, static_cast<GLintptr>(first),
+                              static_cast<GLsizeiptr>(bytes), GL_RED_INTEGER, GL_UNSIGNED_INT,
                               nullptr);
 }
 
 /// Room for `asked` of them: twice as many as there are, at most `most`.
-int grown(int asked, int there, int least, int most) { return std::max(asked, std::min(most, std::max(least, 2 * there))); }
+int grown(int asked, int there, int least, int most) {
+    return std::max(asked, std::min(most, std::max(least, 2 * there)));
+}
 
 } // namespace
 
 TrackPass::TrackPass(int most_pages, int most_blocks, int table_size)
-    : most_pages_(most_pages), most_blocks_(most_blocks), table_size_(table_size), change_("track change", {"tracks/change.comp"}),
-      advance_("track advance", {"tracks/advance.comp"}), press_("track press", {"tracks/advance.comp"}, {"PRESS_ONLY"}),
+    : most_pages_(most_pages), most_blocks_(most_blocks), table_size_(table_size),
+      change_("track change", {"tracks/change.comp"}),
+      advance_("track advance", {"tracks/advance.comp"}),
+      press_("track press", {"tracks/advance.comp"}, {"PRESS_ONLY"}),
       rebase_("track rebase", {"tracks/rebase.comp"}), show_("track show", {"tracks/show.comp"}),
-      table_((static_cast<std::size_t>(table_size) + static_cast<std::size_t>(most_pages) * shared::kTrackBlocks / 4) * sizeof(glm::ivec4)) {
+      table_((static_cast<std::size_t>(table_size) +
+              static_cast<std::size_t>(most_pages) * shared::kTrackBlocks / 4) *
+             sizeof(glm::ivec4)) {
     glCreateTextures(GL_TEXTURE_BUFFER, 3, textures_);
     reserve(1, 1);
 }
 
-TrackPass::~TrackPass() { glDeleteTextures(3, textures_); }
+TrackPass::~TrackPass() {
+    glDeleteTextures(3, textures_);
+}
 
 void TrackPass::reserve(int slots, int places) {
     if (slots <= slots_ && places <= places_) {
@@ -90,7 +101,8 @@ void TrackPass::dispatch(const gl::Program& program, std::size_t entries, int si
     const auto groups = static_cast<GLuint>((side + TRACK_GROUP - 1) / TRACK_GROUP);
     program.use();
     glDispatchCompute(groups, groups, static_cast<GLuint>(entries));
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 void TrackPass::upload_work(std::span<const shared::TrackBlock> blocks) {
@@ -166,28 +178,36 @@ void TrackPass::show(std::span<const int> slots) {
 }
 
 void TrackPass::put(int slot, const std::vector<std::uint32_t>& pressed) {
-    shown_.upload(pressed.data(), pressed.size() * sizeof(std::uint32_t), static_cast<std::size_t>(slot) * kPageBytes);
+    shown_.upload(pressed.data(), pressed.size() * sizeof(std::uint32_t),
+                  static_cast<std::size_t>(slot) * kPageBytes);
 }
 
 std::vector<std::uint32_t> TrackPass::get(int slot) const {
     std::vector<std::uint32_t> pressed(kCells);
-    shown_.read(pressed.data(), kCells * sizeof(std::uint32_t), static_cast<std::size_t>(slot) * kPageBytes);
+    shown_.read(pressed.data(), kCells * sizeof(std::uint32_t),
+                static_cast<std::size_t>(slot) * kPageBytes);
     return pressed;
 }
 
-void TrackPass::clear(int slot) { zero(shown_, static_cast<std::size_t>(slot) * kPageBytes, kPageBytes); }
+void TrackPass::clear(int slot) {
+    zero(shown_, static_cast<std::size_t>(slot) * kPageBytes, kPageBytes);
+}
 
-void TrackPass::put_block(int place, std::span<const glm::vec4> bends, std::span<const glm::vec4> changes) {
+void TrackPass::put_block(int place, std::span<const glm::vec4> bends,
+                          std::span<const glm::vec4> changes) {
     bends_.upload(bends.data(), bends.size_bytes(), static_cast<std::size_t>(place) * kBlockBytes);
-    changes_.upload(changes.data(), changes.size_bytes(), static_cast<std::size_t>(place) * kBlockBytes);
+    changes_.upload(changes.data(), changes.size_bytes(),
+                    static_cast<std::size_t>(place) * kBlockBytes);
 }
 
 void TrackPass::get_block(int place, PageContent& into) const {
     const std::size_t first = into.bends.size();
     into.bends.resize(first + kBlockCells);
     into.changes.resize(first + kBlockCells);
-    bends_.read(into.bends.data() + first, kBlockBytes, static_cast<std::size_t>(place) * kBlockBytes);
-    changes_.read(into.changes.data() + first, kBlockBytes, static_cast<std::size_t>(place) * kBlockBytes);
+    bends_.read(into.bends.data() + first, kBlockBytes,
+                static_cast<std::size_t>(place) * kBlockBytes);
+    changes_.read(into.changes.data() + first, kBlockBytes,
+                  static_cast<std::size_t>(place) * kBlockBytes);
 }
 
 void TrackPass::clear_block(int place) {
@@ -197,10 +217,14 @@ void TrackPass::clear_block(int place) {
 
 glm::vec4 TrackPass::cell(int slot, int place, glm::ivec2 at) const {
     std::uint32_t word = 0;
-    shown_.read(&word, sizeof(word), static_cast<std::size_t>(slot) * kPageBytes + static_cast<std::size_t>(at.y * shared::kTrackCells + at.x) * sizeof(word));
+    shown_.read(&word, sizeof(word),
+                static_cast<std::size_t>(slot) * kPageBytes +
+                    static_cast<std::size_t>(at.y * shared::kTrackCells + at.x) * sizeof(word));
     glm::vec4 bend(0);
     if (place >= 0) {
-        bends_.read(&bend, sizeof(bend), static_cast<std::size_t>(place) * kBlockBytes + static_cast<std::size_t>(shared::track_in_block(at)) * sizeof(bend));
+        bends_.read(&bend, sizeof(bend),
+                    static_cast<std::size_t>(place) * kBlockBytes +
+                        static_cast<std::size_t>(shared::track_in_block(at)) * sizeof(bend));
     }
     const glm::vec2 lying = shared::track_unpack(word);
     return {bend.x, bend.y, lying.x, lying.y};

@@ -12,8 +12,10 @@
 
 namespace sward::tracks {
 
-/// The pool's cells on the GPU and the passes over them. A page has 6.7 bytes a cell for what lies and for what is seen of it; what moves 32 more a
-/// cell, in a pool of blocks. Storage grows with what was ever in use. Cost of a step follows the blocks that it is given: those at rest cost nothing.
+/// The pool's cells on the GPU and the passes over them. A page has 6.7 bytes a cell for what lies
+/// and for what is seen of it; what moves 32 more a cell, in a pool of blocks. Storage grows with
+/// what was ever in use. Cost of a step follows the blocks that it is given: those at rest cost
+/// nothing.
 class TrackPass {
 public:
     /// Bounds of the two pools, and entries of the table that pages are looked up in.
@@ -25,7 +27,8 @@ public:
     /// Room for so many slots and places of blocks; what they hold stays.
     void reserve(int slots, int places);
     struct Work {
-        std::vector<shared::TrackBlock> moving, resting; ///< of those at rest only what lasts changes
+        std::vector<shared::TrackBlock> moving,
+            resting; ///< of those at rest only what lasts changes
         std::vector<shared::TrackPrint> prints;
     };
     /// A step of blocks (C1, C2, C4).
@@ -33,7 +36,9 @@ public:
     void rebase(std::span<const int> slots);
     /// Brings what is shown of slots up to date; the table must be.
     void show(std::span<const int> slots);
-    void set_table(const std::vector<glm::ivec4>& table) { table_.upload(table.data(), table.size() * sizeof(glm::ivec4)); }
+    void set_table(const std::vector<glm::ivec4>& table) {
+        table_.upload(table.data(), table.size() * sizeof(glm::ivec4));
+    }
 
     /// What lies in a page: words of its cells. Reading waits for the GPU.
     void put(int slot, const std::vector<std::uint32_t>& pressed);
@@ -43,7 +48,8 @@ public:
     void put_block(int place, std::span<const glm::vec4> bends, std::span<const glm::vec4> changes);
     void get_block(int place, PageContent& into) const;
     void clear_block(int place);
-    /// One cell: theta, pressed in units of its epoch; `place` of its block, -1: at rest. Waits for the GPU.
+    /// One cell: theta, pressed in units of its epoch; `place` of its block, -1: at rest. Waits for
+    /// the GPU.
     [[nodiscard]] glm::vec4 cell(int slot, int place, glm::ivec2 at) const;
     /// For lib/track.glsl.
     void bind() const;

@@ -5,17 +5,21 @@
 
 namespace sward::tracks {
 
-void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::TrackPrint> prints, glm::vec2 slope) {
+void TrackTwin::step(const shared::TrackRules& rules, std::span<const shared::TrackPrint> prints,
+                     glm::vec2 slope) {
     constexpr int kSide = shared::kTrackCells;
     std::vector<glm::vec4> changes(kCount);
     for (int z = 0; z < kSide; ++z) {
         for (int x = 0; x < kSide; ++x) {
             const auto beside = [&](int dx, int dz) {
                 const int bx = x + dx, bz = z + dz;
-                const shared::TrackCell& cell = bx < 0 || bz < 0 || bx >= kSide || bz >= kSide ? at(x, z) : at(bx, bz); // nothing beyond: as here
+                const shared::TrackCell& cell = bx < 0 || bz < 0 || bx >= kSide || bz >= kSide
+                                                    ? at(x, z)
+                                                    : at(bx, bz); // nothing beyond: as here
                 return glm::vec4(cell.theta, cell.omega);
             };
-            changes[static_cast<std::size_t>(z * kSide + x)] = shared::track_change(rules, at(x, z), beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1));
+            changes[static_cast<std::size_t>(z * kSide + x)] = shared::track_change(
+                rules, at(x, z), beside(-1, 0), beside(1, 0), beside(0, -1), beside(0, 1));
         }
     }
     for (int z = 0; z < kSide; ++z) {

@@ -14,9 +14,9 @@ namespace sward::tracks {
 
 namespace {
 
-constexpr double kStep_s = 1.0 / 60; // shared::kTrackStep_s, in double
+constexpr double kStep_s = 1.0 / 60;             // shared::kTrackStep_s, in double
 constexpr double kEpochs = shared::kTrackEpochs; // in the time that lies until 1/e
-constexpr double kNearEye_m = 1e4;     // pages that the memory holds come back for an eye within
+constexpr double kNearEye_m = 1e4; // pages that the memory holds come back for an eye within
 
 } // namespace
 
@@ -29,7 +29,8 @@ shared::TrackRules rules_of(const scene::TrackSpec& spec, double canopy_m) {
     rules.wave_mps = static_cast<float>(spec.wave_mps);
     rules.rate_wave_mps = static_cast<float>(spec.rate_wave_mps);
     rules.wave_gain_m = static_cast<float>(spec.wave_gain_m);
-    rules.most_wave_mps = shared::track_greatest_wave(rules.cell_m, rules.step_s, rules.recovery_per_s2);
+    rules.most_wave_mps =
+        shared::track_greatest_wave(rules.cell_m, rules.step_s, rules.recovery_per_s2);
     rules.canopy_m = static_cast<float>(canopy_m);
     rules.broken = static_cast<float>(spec.broken);
     rules.left = 1;
@@ -41,15 +42,18 @@ std::int64_t steps_to_rest(const shared::TrackRules& rules) {
     std::int64_t last = 1;
     for (std::int64_t n = 1; n <= 3600; ++n) {
         const glm::vec4 same(cell.theta, cell.omega);
-        cell = shared::track_advance(cell, shared::track_change(rules, cell, same, same, same, same));
+        cell =
+            shared::track_advance(cell, shared::track_change(rules, cell, same, same, same, same));
         last = std::abs(cell.theta.x) > 1e-3f ? n + 1 : last;
     }
     return std::min<std::int64_t>(last, 3600);
 }
 
 Tracks::Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs)
-    : spec_(scene.tracks.value()), prints_(spec_, scene.paths, canopy_m, inputs.ground), inputs_(std::move(inputs)),
-      pages_(spec_.pages, spec_.cell_m * shared::kTrackCells), memory_(static_cast<std::size_t>(spec_.memory_mb * 1e6)), pass_(spec_.pages, spec_.pages * kMovingBlocksAPage, pages_.table_size()),
+    : spec_(scene.tracks.value()), prints_(spec_, scene.paths, canopy_m, inputs.ground),
+      inputs_(std::move(inputs)), pages_(spec_.pages, spec_.cell_m * shared::kTrackCells),
+      memory_(static_cast<std::size_t>(spec_.memory_mb * 1e6)),
+      pass_(spec_.pages, spec_.pages * kMovingBlocksAPage, pages_.table_size()),
       rules_(rules_of(spec_, canopy_m)), settle_steps_(steps_to_rest(rules_)) {}
 
 void Tracks::forget() {
@@ -80,7 +84,8 @@ void Tracks::advance(double time_s, std::span<const glm::dvec3> eyes) {
     if (done_ < 0 || target < done_) {
         restart();
     }
-    const bool leap = target - done_ > std::max(static_cast<std::int64_t>(kLeap_s / kStep_s), settle_steps_);
+    const bool leap =
+        target - done_ > std::max(static_cast<std::int64_t>(kLeap_s / kStep_s), settle_steps_);
     const std::int64_t full_from = leap ? target - settle_steps_ : done_;
     while (done_ < target) {
         ++done_;
@@ -91,9 +96,11 @@ void Tracks::advance(double time_s, std::span<const glm::dvec3> eyes) {
     show();
     if (refused_ + stilled_ + memory_.lost() + prints_.leaps() > 0 && !told_) {
         told_ = true;
-        base::log_warning(fmt::format("tracks: {} pages found no room and {} blocks were stilled early (tracks.pages = {}), {} pages were forgotten "
-                                      "(tracks.memory_mb = {}), {} ways were too fast to be followed",
-                                      refused_, stilled_, spec_.pages, memory_.lost(), spec_.memory_mb, prints_.leaps()));
+        base::log_warning(fmt::format(
+            "tracks: {} pages found no room and {} blocks were stilled early (tracks.pages = {}), "
+            "{} pages were forgotten "
+            "(tracks.memory_mb = {}), {} ways were too fast to be followed",
+            refused_, stilled_, spec_.pages, memory_.lost(), spec_.memory_mb, prints_.leaps()));
     }
 }
 
@@ -106,14 +113,17 @@ void Tracks::follow_epoch(double time_s) {
             page.shown = false;
         }
     }
-    rules_.left = shared::track_left(static_cast<float>(time_s - static_cast<double>(epoch_) * span), static_cast<float>(spec_.lasting_s));
+    rules_.left =
+        shared::track_left(static_cast<float>(time_s - static_cast<double>(epoch_) * span),
+                           static_cast<float>(spec_.lasting_s));
 }
 
 void Tracks::step(std::int64_t number, bool full) {
     const double then_s = static_cast<double>(number) * kStep_s;
     follow_epoch(then_s);
     settle(number);
-    const std::vector<Ball> balls = inputs_.balls ? inputs_.balls(then_s, kStep_s) : std::vector<Ball>{};
+    const std::vector<Ball> balls =
+        inputs_.balls ? inputs_.balls(then_s, kStep_s) : std::vector<Ball>{};
     const std::vector<Print> prints = prints_.at(then_s, kStep_s, balls);
     wake(prints, number, full);
     const TrackPass::Work work = work_of(prints, number);
@@ -143,7 +153,8 @@ int Tracks::bring(PageKey key, std::span<const PageKey> kept) {
     Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
     const double side = pages_.side_m();
     const glm::dvec2 low = pages_.corner(key), high = low + side;
-    const double nw = inputs_.ground(low.x, low.y), ne = inputs_.ground(high.x, low.y), sw = inputs_.ground(low.x, high.y), se = inputs_.ground(high.x, high.y);
+    const double nw = inputs_.ground(low.x, low.y), ne = inputs_.ground(high.x, low.y),
+                 sw = inputs_.ground(low.x, high.y), se = inputs_.ground(high.x, high.y);
     page.slope = glm::vec2(glm::dvec2(ne + se - nw - sw, sw + se - nw - ne) / (2 * side));
     table_changed_ = true;
     pass_.clear(slot);
@@ -156,7 +167,8 @@ int Tracks::bring(PageKey key, std::span<const PageKey> kept) {
 void Tracks::restore(int slot, PageContent content) {
     Pages::Page& page = pages_.slots()[static_cast<std::size_t>(slot)];
     const std::int64_t epochs = std::min<std::int64_t>(epoch_ - content.epoch, 1000);
-    for (std::int64_t n = 0; n < epochs; ++n) { // step by step, as rebase() would have: the same bits
+    for (std::int64_t n = 0; n < epochs;
+         ++n) { // step by step, as rebase() would have: the same bits
         for (std::uint32_t& cell : content.pressed) {
             cell = shared::track_rebased(cell);
         }
@@ -173,7 +185,9 @@ void Tracks::restore(int slot, PageContent content) {
         if (block.place >= 0) {
             block.busy_until = until;
             page.busy_until = std::max(page.busy_until, until);
-            pass_.put_block(block.place, std::span(content.bends).subspan(n * kBlockCells, kBlockCells), std::span(content.changes).subspan(n * kBlockCells, kBlockCells));
+            pass_.put_block(block.place,
+                            std::span(content.bends).subspan(n * kBlockCells, kBlockCells),
+                            std::span(content.changes).subspan(n * kBlockCells, kBlockCells));
         }
     }
 }
@@ -186,12 +200,15 @@ void Tracks::drop(int slot) {
     for (std::size_t n = 0; n < page.blocks.size(); ++n) {
         Block& block = page.blocks[n];
         if (block.place >= 0) {
-            content.moving.insert(content.moving.end(), {static_cast<std::int64_t>(n), block.busy_until});
+            content.moving.insert(content.moving.end(),
+                                  {static_cast<std::int64_t>(n), block.busy_until});
             pass_.get_block(block.place, content);
             lay_to_rest(block);
         }
     }
-    const bool something = !content.moving.empty() || std::any_of(content.pressed.begin(), content.pressed.end(), [](std::uint32_t word) { return word != 0; });
+    const bool something =
+        !content.moving.empty() || std::any_of(content.pressed.begin(), content.pressed.end(),
+                                               [](std::uint32_t word) { return word != 0; });
     if (something) {
         memory_.put(page.key, content);
     }
@@ -199,12 +216,14 @@ void Tracks::drop(int slot) {
     table_changed_ = true;
 }
 
-/// Pages of the memory that lie near an eye, nearest first, into free slots or those of farther pages.
+/// Pages of the memory that lie near an eye, nearest first, into free slots or those of farther
+/// pages.
 void Tracks::bring_back() {
     std::vector<std::pair<double, std::pair<int, int>>> near;
     for (const PageKey key : memory_.keys()) {
         for (const glm::dvec2& eye : eyes_) {
-            const double away = glm::distance(eye, glm::clamp(eye, pages_.corner(key), pages_.corner(key) + pages_.side_m()));
+            const double away = glm::distance(
+                eye, glm::clamp(eye, pages_.corner(key), pages_.corner(key) + pages_.side_m()));
             if (away < kNearEye_m) {
                 near.push_back({away, {key.y, key.x}});
             }
@@ -219,7 +238,9 @@ void Tracks::bring_back() {
             const auto nearest = [&](PageKey page) {
                 double least = 1e30;
                 for (const glm::dvec2& eye : eyes_) {
-                    least = std::min(least, glm::distance(eye, glm::clamp(eye, pages_.corner(page), pages_.corner(page) + pages_.side_m())));
+                    least = std::min(least, glm::distance(eye, glm::clamp(eye, pages_.corner(page),
+                                                                          pages_.corner(page) +
+                                                                              pages_.side_m())));
                 }
                 return least;
             };
@@ -276,8 +297,11 @@ Tracks::Sample Tracks::at(double x, double z) const {
     const int slot = pages_.slot_of(key);
     Sample sample;
     if (slot >= 0) {
-        const glm::ivec2 at = glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0, shared::kTrackCells - 1);
-        const Block& block = pages_.slots()[static_cast<std::size_t>(slot)].blocks[static_cast<std::size_t>(shared::track_block_of(at))];
+        const glm::ivec2 at =
+            glm::clamp(glm::ivec2((glm::dvec2(x, z) - pages_.corner(key)) / spec_.cell_m), 0,
+                       shared::kTrackCells - 1);
+        const Block& block = pages_.slots()[static_cast<std::size_t>(slot)]
+                                 .blocks[static_cast<std::size_t>(shared::track_block_of(at))];
         const glm::vec4 cell = pass_.cell(slot, block.place, at);
         sample.theta = glm::vec2(cell);
         sample.pressed = glm::vec2(cell.z, cell.w) * rules_.left;

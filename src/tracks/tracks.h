@@ -18,8 +18,8 @@
 
 namespace sward::tracks {
 
-/// What has passed through a scene's grass (methods.md C1 to C6): steps of a fixed length counted from time 0, whatever the pictures' rate. Needs a
-/// current context.
+/// What has passed through a scene's grass (methods.md C1 to C6): steps of a fixed length counted
+/// from time 0, whatever the pictures' rate. Needs a current context.
 class Tracks {
 public:
     /// Balls in the step that ends at a time.
@@ -31,8 +31,9 @@ public:
     /// The scene has `tracks`. `canopy_m`: what does not come below it touches nothing.
     Tracks(const scene::Scene& scene, double canopy_m, Inputs inputs);
 
-    /// Whole steps up to `time_s` (s, from 0); pages in and out around what moves and the eyes (world metres). An earlier time begins anew. Of a
-    /// leap of more than kLeap_s only its end is stepped in full; of what was before it what lies pressed is kept.
+    /// Whole steps up to `time_s` (s, from 0); pages in and out around what moves and the eyes
+    /// (world metres). An earlier time begins anew. Of a leap of more than kLeap_s only its end is
+    /// stepped in full; of what was before it what lies pressed is kept.
     void advance(double time_s, std::span<const glm::dvec3> eyes);
     /// Binds what lib/track.glsl reads. Before: advance().
     void bind() const { pass_.bind(); }
@@ -45,22 +46,28 @@ public:
     /// The cell at world x, z. Waits for the GPU.
     [[nodiscard]] Sample at(double x, double z) const;
 
-    /// What lies, as a picture: channels pressed.X and pressed.Y over the pages that hold some, a pixel a cell, north up. Throws Error(kOverLimit)
-    /// where it would have more than kMostSide pixels a side. Width 0: nothing lies.
+    /// What lies, as a picture: channels pressed.X and pressed.Y over the pages that hold some, a
+    /// pixel a cell, north up. Throws Error(kOverLimit) where it would have more than kMostSide
+    /// pixels a side. Width 0: nothing lies.
     [[nodiscard]] scene::Image picture() const;
-    /// Takes such a picture as what lay at time 0, in the place of what there is. Throws Error(kBadInput) that begins with `name` for one of
-    /// another kind, cell size or place.
+    /// Takes such a picture as what lay at time 0, in the place of what there is. Throws
+    /// Error(kBadInput) that begins with `name` for one of another kind, cell size or place.
     void begin_with(const scene::Image& picture, const std::string& name);
     static constexpr int kMostSide = 16384;
 
     [[nodiscard]] const Pages& pages() const { return pages_; }
     [[nodiscard]] const PageMemory& memory() const { return memory_; }
     [[nodiscard]] std::size_t bytes() const { return pass_.bytes(); }
-    [[nodiscard]] std::size_t refused() const { return refused_; } ///< pages that something touched and that had no room
-    [[nodiscard]] std::size_t stilled() const { return stilled_; } ///< blocks whose bends were given up for others'
+    [[nodiscard]] std::size_t refused() const {
+        return refused_;
+    } ///< pages that something touched and that had no room
+    [[nodiscard]] std::size_t stilled() const {
+        return stilled_;
+    } ///< blocks whose bends were given up for others'
     [[nodiscard]] std::uint64_t stepped_blocks() const { return stepped_; }
     [[nodiscard]] std::size_t moving() const { return places_used_; } ///< blocks
-    /// Blocks that can move at a time: of a page that a wheel crosses, and the ways beside it, 17 of 64 do.
+    /// Blocks that can move at a time: of a page that a wheel crosses, and the ways beside it, 17
+    /// of 64 do.
     static constexpr int kMovingBlocksAPage = 17;
     [[nodiscard]] const shared::TrackRules& rules() const { return rules_; }
     void reload() { pass_.reload(); }
@@ -78,7 +85,8 @@ private:
     void wake_blocks(int slot, const Print& print, std::int64_t until);
     int take_place(std::int64_t until);
     void lay_to_rest(Block& block);
-    [[nodiscard]] TrackPass::Work work_of(const std::vector<Print>& prints, std::int64_t number) const;
+    [[nodiscard]] TrackPass::Work work_of(const std::vector<Print>& prints,
+                                          std::int64_t number) const;
     [[nodiscard]] int place_of(PageKey key, glm::ivec2 block) const;
     int bring(PageKey key, std::span<const PageKey> kept);
     void restore(int slot, PageContent content);

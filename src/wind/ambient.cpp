@@ -12,24 +12,30 @@ namespace sward::wind {
 
 namespace {
 constexpr double kTwoPi = 6.283185307179586;
-// Turns of each group while the strongest gust turns over once: no two in a simple ratio, so that the sum never repeats.
+// Turns of each group while the strongest gust turns over once: no two in a simple ratio, so that
+// the sum never repeats.
 constexpr double kRates[kGustGroups] = {0.11, -0.17, 0.0687};
-constexpr double kDrawn = 0.25; // share of a turn-over in which the fluid is drawn to the synthesised gusts
+constexpr double kDrawn =
+    0.25; // share of a turn-over in which the fluid is drawn to the synthesised gusts
 constexpr float kAnySpeed = shared::kWindCeiling_mps;
 } // namespace
 
 AmbientTile::AmbientTile(const scene::WindSpec& spec) : AmbientTile(spec, nullptr, 0) {}
 
-AmbientTile::AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first) : AmbientTile(spec, other.spectrum_, first) {}
+AmbientTile::AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first)
+    : AmbientTile(spec, other.spectrum_, first) {}
 
-AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first)
-    : seed_(static_cast<std::uint64_t>(spec.seed)), strength_mps_(kGustShare * spec.gust * spec.speed_mps), spectrum_(std::move(spectrum)) {
+AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum,
+                         std::int64_t first)
+    : seed_(static_cast<std::uint64_t>(spec.seed)),
+      strength_mps_(kGustShare * spec.gust * spec.speed_mps), spectrum_(std::move(spectrum)) {
     tag_.step_s = kStep_s;
     tag_.cells = kCells;
     tag_.cell_m = kCell_m;
     if (strength_mps_ > 0) {
         if (!spectrum_) {
-            spectrum_ = std::make_shared<const GustSpectrum>(gust_spectrum(kCells, kPeakWaves, seed_));
+            spectrum_ =
+                std::make_shared<const GustSpectrum>(gust_spectrum(kCells, kPeakWaves, seed_));
         }
         initial_ = gl::Buffer(sizeof(glm::vec4) * kCells * kCells);
     } else {
@@ -43,7 +49,8 @@ std::array<double, kGustGroups> AmbientTile::phases(std::int64_t state) const {
     const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_mps_;
     std::array<double, kGustGroups> out{};
     for (std::size_t g = 0; g < out.size(); ++g) {
-        out[g] = kTwoPi * std::fmod(kRates[g] * static_cast<double>(state) * kStep_s / turn_over_s, 1.0);
+        out[g] =
+            kTwoPi * std::fmod(kRates[g] * static_cast<double>(state) * kStep_s / turn_over_s, 1.0);
     }
     return out;
 }
@@ -65,7 +72,9 @@ void AmbientTile::begin(std::int64_t first) {
     for (std::size_t row = 0; row < kCells; ++row) {
         for (std::size_t column = 0; column < kCells; ++column) {
             const std::size_t own = row * kCells + column;
-            const glm::vec2 centre = 0.5f * glm::vec2(u_[own] + u_[row * kCells + (column + 1) % kCells], v_[own] + v_[(row + 1) % kCells * kCells + column]);
+            const glm::vec2 centre =
+                0.5f * glm::vec2(u_[own] + u_[row * kCells + (column + 1) % kCells],
+                                 v_[own] + v_[(row + 1) % kCells * kCells + column]);
             initial_cells_[own] = glm::vec4(centre, centre);
         }
     }
@@ -79,11 +88,14 @@ void AmbientTile::step() {
                 target_ = gl::Buffer(kGustGroups * kCells * kCells * sizeof(glm::vec2));
                 for (std::size_t g = 0; g < kGustGroups; ++g) {
                     const auto& stream = spectrum_->stream[g];
-                    target_.upload(stream.data(), stream.size() * sizeof(glm::vec2), g * stream.size() * sizeof(glm::vec2));
+                    target_.upload(stream.data(), stream.size() * sizeof(glm::vec2),
+                                   g * stream.size() * sizeof(glm::vec2));
                 }
                 totals_ = gl::Buffer(4 * sizeof(float));
-                totals_program_ = gl::Program("wind ambient_totals", {"wind/ambient_totals.comp"}, {"PERIODIC"});
-                force_program_ = gl::Program("wind ambient_force", {"wind/ambient_force.comp"}, {"PERIODIC"});
+                totals_program_ =
+                    gl::Program("wind ambient_totals", {"wind/ambient_totals.comp"}, {"PERIODIC"});
+                force_program_ =
+                    gl::Program("wind ambient_force", {"wind/ambient_force.comp"}, {"PERIODIC"});
             }
             FluidSettings settings;
             settings.cells = kCells;
@@ -101,7 +113,8 @@ void AmbientTile::step() {
 void AmbientTile::apply_forces(const FluidGrid& grid) {
     const double turn_over_s = kCells * kCell_m / kPeakWaves / strength_mps_;
     const std::array<double, kGustGroups> now = phases(tag_.latest + 1);
-    glm::vec4 cosines(0, 0, 0, 1 - std::exp(-kStep_s / (kDrawn * turn_over_s))), sines(0, 0, 0, strength_mps_);
+    glm::vec4 cosines(0, 0, 0, 1 - std::exp(-kStep_s / (kDrawn * turn_over_s))),
+        sines(0, 0, 0, strength_mps_);
     for (int g = 0; g < kGustGroups; ++g) {
         cosines[g] = static_cast<float>(strength_mps_ * std::cos(now[static_cast<std::size_t>(g)]));
         sines[g] = static_cast<float>(strength_mps_ * std::sin(now[static_cast<std::size_t>(g)]));
@@ -116,7 +129,8 @@ void AmbientTile::apply_forces(const FluidGrid& grid) {
     force_program_.use();
     glUniform4fv(0, 1, &cosines.x);
     glUniform4fv(1, 1, &sines.x);
-    glDispatchCompute((kCells + WIND_GROUP_X - 1) / WIND_GROUP_X, (kCells + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
+    glDispatchCompute((kCells + WIND_GROUP_X - 1) / WIND_GROUP_X,
+                      (kCells + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
 }
 
 void AmbientTile::reload() {

@@ -11,22 +11,28 @@
 
 namespace sward::wind {
 
-/// The ambient wind's gusts: a periodic fluid that the mean wind carries along. It is solved in the air's own frame, so that its
-/// steps may be long; forced by drawing it slowly to a synthesised field with the gusts' spectrum, which never repeats, and held
-/// at the scene's strength and at mean 0. Starts as that field: there is nothing to spin up.
+/// The ambient wind's gusts: a periodic fluid that the mean wind carries along. It is solved in the
+/// air's own frame, so that its steps may be long; forced by drawing it slowly to a synthesised
+/// field with the gusts' spectrum, which never repeats, and held at the scene's strength and at
+/// mean 0. Starts as that field: there is nothing to spin up.
 class AmbientTile final : public FluidInputs {
 public:
-    static constexpr int kCells = 256;        // a side; a step costs about 6 ms in software
-    static constexpr double kCell_m = 5;      // of the larger of the two layers that are laid over the plane
+    static constexpr int kCells = 256; // a side; a step costs about 6 ms in software
+    static constexpr double kCell_m =
+        5; // of the larger of the two layers that are laid over the plane
     static constexpr double kStep_s = 0.5;
-    static constexpr double kPeakWaves = 6;   // strongest gusts: 213 m long, and 132 m in the smaller layer
-    static constexpr double kGustShare = 0.45; // root mean square of a component at gust 1, of the mean speed
+    static constexpr double kPeakWaves =
+        6; // strongest gusts: 213 m long, and 132 m in the smaller layer
+    static constexpr double kGustShare =
+        0.45; // root mean square of a component at gust 1, of the mean speed
 
     explicit AmbientTile(const scene::WindSpec& spec);
-    /// Of the same seed as `other`, whose spectrum it shares, for another wind; begins at state `first`.
+    /// Of the same seed as `other`, whose spectrum it shares, for another wind; begins at state
+    /// `first`.
     AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first);
 
-    /// Root mean square of the gusts (m/s a component); 0: there are none, and nothing is ever stepped.
+    /// Root mean square of the gusts (m/s a component); 0: there are none, and nothing is ever
+    /// stepped.
     [[nodiscard]] double strength_mps() const { return strength_mps_; }
     /// One step.
     void step();
@@ -44,13 +50,14 @@ public:
     [[nodiscard]] double loudest_mps() const override { return 0; }
 
 private:
-    AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum, std::int64_t first);
+    AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum,
+                std::int64_t first);
     [[nodiscard]] std::array<double, kGustGroups> phases(std::int64_t state) const;
     std::uint64_t seed_;
     double strength_mps_;
     StateTag tag_;
     std::shared_ptr<const GustSpectrum> spectrum_; ///< null where there are no gusts
-    std::vector<float> u_, v_; ///< the first state
+    std::vector<float> u_, v_;                     ///< the first state
     std::vector<glm::vec4> initial_cells_;
     gl::Buffer initial_, target_, totals_;
     std::unique_ptr<Fluid> fluid_; ///< made with the first step

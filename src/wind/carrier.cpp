@@ -29,9 +29,11 @@ Carried carried_at(const scene::WindPlace& place, const Paths& paths, double tim
     const scene::Pose before = scene::sample_path(path, time_s - kHalfDifference_s);
     const scene::Pose after = scene::sample_path(path, time_s + kHalfDifference_s);
     out.place = offset_place(now, place.place);
-    out.velocity = (offset_place(after, place.place) - offset_place(before, place.place)) / (2 * kHalfDifference_s);
+    out.velocity = (offset_place(after, place.place) - offset_place(before, place.place)) /
+                   (2 * kHalfDifference_s);
     out.yaw_deg += now.yaw_deg;
-    out.turn_rad_s = std::remainder(after.yaw_deg - before.yaw_deg, 360.0) * kDegree / (2 * kHalfDifference_s);
+    out.turn_rad_s =
+        std::remainder(after.yaw_deg - before.yaw_deg, 360.0) * kDegree / (2 * kHalfDifference_s);
     out.height_m = now.position.y;
     out.agl = now.agl;
     return out;

@@ -16,15 +16,21 @@ namespace sward::wind {
 
 namespace {
 
-constexpr double kRimCells = 16;       // layer at the open rim that is drawn to the ambient wind
-constexpr double kRimRate_per_s = 2;   // at its outer edge
-constexpr double kStableDiffusion = 0.2; // viscosity * step / cell^2 that explicit diffusion carries in one step
+constexpr double kRimCells = 16;     // layer at the open rim that is drawn to the ambient wind
+constexpr double kRimRate_per_s = 2; // at its outer edge
+constexpr double kStableDiffusion =
+    0.2; // viscosity * step / cell^2 that explicit diffusion carries in one step
 
-int wrap(int value, int n) { return ((value % n) + n) % n; }
+int wrap(int value, int n) {
+    return ((value % n) + n) % n;
+}
 
-void storage_barrier() { glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT); }
+void storage_barrier() {
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
 constexpr int kFirstSteps = 2, kEarlySteps = 12; // see Fluid::iterations
-constexpr GLbitfield kAll = GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
+constexpr GLbitfield kAll =
+    GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT;
 
 /// The published cells are the largest block, and a buffer texture over them.
 void require_room(int cells) {
@@ -32,10 +38,13 @@ void require_room(int cells) {
     GLint texels = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &block);
     glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &texels);
-    const std::int64_t most = std::min(block / static_cast<std::int64_t>(sizeof(glm::vec4)), static_cast<std::int64_t>(texels));
+    const std::int64_t most = std::min(block / static_cast<std::int64_t>(sizeof(glm::vec4)),
+                                       static_cast<std::int64_t>(texels));
     if (static_cast<std::int64_t>(cells) * cells > most) {
-        throw base::Error(base::ExitCode::kOverLimit, fmt::format("wind.cells: found {}, expected at most {} on this GPU", cells,
-                                                                  static_cast<int>(std::sqrt(static_cast<double>(most)))));
+        throw base::Error(base::ExitCode::kOverLimit,
+                          fmt::format("wind.cells: found {}, expected at most {} on this GPU",
+                                      cells,
+                                      static_cast<int>(std::sqrt(static_cast<double>(most)))));
     }
 }
 
@@ -52,7 +61,8 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     lay_out_levels();
     const std::size_t cells = static_cast<std::size_t>(settings_.cells) * settings_.cells;
     const shared::WindLevel& last = constants_.levels[constants_.level_count - 1];
-    const std::size_t all = static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.cells) * last.cells;
+    const std::size_t all =
+        static_cast<std::size_t>(last.first) + static_cast<std::size_t>(last.cells) * last.cells;
     for (gl::Buffer* buffer : {&u_, &v_, &u_carried_, &v_carried_}) {
         *buffer = gl::Buffer(cells * sizeof(float));
         buffer->clear_to_zero();
@@ -65,13 +75,15 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     phi_ = gl::Buffer(all * sizeof(float));
     rhs_ = gl::Buffer(all * sizeof(float));
     weights_ = gl::Buffer(all * sizeof(std::uint32_t));
-    for (gl::Buffer* buffer : {&pressure_, &earlier_pressure_, &direction_, &next_direction_, &product_}) {
+    for (gl::Buffer* buffer :
+         {&pressure_, &earlier_pressure_, &direction_, &next_direction_, &product_}) {
         *buffer = gl::Buffer(cells * sizeof(float));
         buffer->clear_to_zero();
     }
     partials_ = gl::Buffer(cells / (WIND_GROUP_X * WIND_GROUP_Y) * 2 * sizeof(glm::vec2) + 4096);
     scalars_ = gl::Buffer(4 * sizeof(float));
-    for (gl::Buffer* buffer : {&published_, &solid_, &solid_velocity_, &inflow_, &phi_, &rhs_, &weights_}) {
+    for (gl::Buffer* buffer :
+         {&published_, &solid_, &solid_velocity_, &inflow_, &phi_, &rhs_, &weights_}) {
         buffer->clear_to_zero();
     }
     constants_buffer_ = gl::Buffer(sizeof(constants_));
@@ -80,13 +92,14 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     rim_buffer_.upload(&none, sizeof(none));
 }
 
-/// Levels halve while their side is even and too long for one workgroup. An open grid leaves a rim so wide that the solved
-/// square halves often enough.
+/// Levels halve while their side is even and too long for one workgroup. An open grid leaves a rim
+/// so wide that the solved square halves often enough.
 void Fluid::lay_out_levels() {
     const int n = settings_.cells;
     int side = n;
     if (!settings_.periodic) {
-        const int halvings = std::clamp(static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(n / 16, 2)))), 2, 64);
+        const int halvings = std::clamp(
+            static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(n / 16, 2)))), 2, 64);
         side = (n - 2) / halvings * halvings;
     }
     const int rim = (n - side) / 2;
@@ -98,8 +111,10 @@ void Fluid::lay_out_levels() {
     constants_.step_per_m = static_cast<float>(step / cell);
     double diffusion = settings_.viscosity_m2s * step / (cell * cell);
     if (diffusion > kStableDiffusion) {
-        base::log_warning(fmt::format("wind.viscosity_m2s: found {}, expected at most {:.4g} for this cell_m and step_s; that is used",
-                                      settings_.viscosity_m2s, kStableDiffusion * cell * cell / step));
+        base::log_warning(fmt::format("wind.viscosity_m2s: found {}, expected at most {:.4g} for "
+                                      "this cell_m and step_s; that is used",
+                                      settings_.viscosity_m2s,
+                                      kStableDiffusion * cell * cell / step));
         diffusion = kStableDiffusion;
     }
     constants_.confinement = static_cast<float>(settings_.confinement);
@@ -114,7 +129,8 @@ void Fluid::lay_out_levels() {
         const int row = level == 0 ? n : side;
         constants_.levels[level] = {{0, 0}, side, row, first, 0, 0, 0};
         first += row * row;
-        if ((level > 0 && side <= WIND_SOLVE_SIDE / 2) || side % 2 != 0 || level + 1 == shared::kMaxWindLevels) {
+        if ((level > 0 && side <= WIND_SOLVE_SIDE / 2) || side % 2 != 0 ||
+            level + 1 == shared::kMaxWindLevels) {
             break;
         }
         side /= 2;
@@ -122,8 +138,11 @@ void Fluid::lay_out_levels() {
     constants_.inner_first = rim;
     constants_.inner_cells = constants_.levels[0].cells;
     constants_.level_count = level + 1;
-    if (level == 0 || side > WIND_SOLVE_SIDE) { // no such size leaves Fluid's callers: cells are 16 to 4096, tiles powers of two
-        throw base::Error(base::ExitCode::kFailure, fmt::format("wind: found a grid of {} cells, expected one that halves", n));
+    if (level == 0 || side > WIND_SOLVE_SIDE) { // no such size leaves Fluid's callers: cells are 16
+                                                // to 4096, tiles powers of two
+        throw base::Error(
+            base::ExitCode::kFailure,
+            fmt::format("wind: found a grid of {} cells, expected one that halves", n));
     }
 }
 
@@ -135,7 +154,12 @@ gl::Program& Fluid::program(const std::string& name) {
         if (correct) {
             defines.emplace_back("CORRECT");
         }
-        found = programs_.emplace(name, gl::Program("wind " + name, {"wind/" + (correct ? "poisson_relax" : name) + ".comp"}, defines)).first;
+        found =
+            programs_
+                .emplace(name, gl::Program("wind " + name,
+                                           {"wind/" + (correct ? "poisson_relax" : name) + ".comp"},
+                                           defines))
+                .first;
     }
     return found->second;
 }
@@ -155,7 +179,8 @@ void Fluid::dispatch(const std::string& name, glm::ivec2 cells, int level, int c
     if (colour >= 0) {
         glUniform1i(1, colour);
     }
-    glDispatchCompute((cells.x + WIND_GROUP_X - 1) / WIND_GROUP_X, (cells.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
+    glDispatchCompute((cells.x + WIND_GROUP_X - 1) / WIND_GROUP_X,
+                      (cells.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
     storage_barrier();
 }
 
@@ -214,11 +239,13 @@ void Fluid::set_state(std::span<const float> u, std::span<const float> v) {
 void Fluid::move_to(glm::ivec2 first, const shared::WindField& rim) {
     const glm::ivec2 shift = first - first_;
     const int n = settings_.cells;
-    glm::ivec2 low = glm::clamp(-shift, glm::ivec2(0), glm::ivec2(n)), high = glm::clamp(n - shift, glm::ivec2(0), glm::ivec2(n));
+    glm::ivec2 low = glm::clamp(-shift, glm::ivec2(0), glm::ivec2(n)),
+               high = glm::clamp(n - shift, glm::ivec2(0), glm::ivec2(n));
     if (!solids_known_) { // never stepped: nothing is worth keeping
         low = high = glm::ivec2(0);
     }
-    if (const int kept = (high.x - low.x) * (high.y - low.y); kept < n * n / 2) { // after a leap the last pressure is none to begin with
+    if (const int kept = (high.x - low.x) * (high.y - low.y);
+        kept < n * n / 2) { // after a leap the last pressure is none to begin with
         steps_ = 0;
     } else if (kept < n * n - n * n / 8) {
         steps_ = std::min(steps_, kFirstSteps);
@@ -274,7 +301,8 @@ void Fluid::guess_pressure() {
         earlier_pressure_.bind_storage(BIND_WIND_EARLIER_PRESSURE);
         dispatch("poisson_guess", glm::ivec2(constants_.inner_cells));
     } else {
-        glCopyNamedBufferSubData(pressure_.id(), earlier_pressure_.id(), 0, 0, static_cast<GLsizeiptr>(pressure_.bytes()));
+        glCopyNamedBufferSubData(pressure_.id(), earlier_pressure_.id(), 0, 0,
+                                 static_cast<GLsizeiptr>(pressure_.bytes()));
     }
 }
 
@@ -282,7 +310,9 @@ void Fluid::guess_pressure() {
 void Fluid::cycle() {
     const int coarsest = constants_.level_count - 1;
     const auto cells = [&](int level) { return glm::ivec2(constants_.levels[level].cells); };
-    const auto half = [&](int level) { return glm::ivec2((cells(level).x + 1) / 2, cells(level).y); };
+    const auto half = [&](int level) {
+        return glm::ivec2((cells(level).x + 1) / 2, cells(level).y);
+    };
     for (int level = 0; level < coarsest; ++level) {
         dispatch("poisson_begin", cells(level), level);
         dispatch("poisson_restrict", cells(level + 1), level);
@@ -294,16 +324,22 @@ void Fluid::cycle() {
     }
 }
 
-/// The first steps have no pressure to begin with (the second one's is the first to hold the half that acts before the advection).
+/// The first steps have no pressure to begin with (the second one's is the first to hold the half
+/// that acts before the advection).
 int Fluid::iterations(bool solids_changed) const {
-    return settings_.cycles * (steps_ < kFirstSteps ? 8 : steps_ < kEarlySteps ? 4 : solids_changed ? 2 : 1);
+    return settings_.cycles * (steps_ < kFirstSteps   ? 8
+                               : steps_ < kEarlySteps ? 4
+                               : solids_changed       ? 2
+                                                      : 1);
 }
 
-/// Conjugate gradients with the multigrid as preconditioner: alone it converges in free air, but may diverge beside walls thinner
-/// than coarse cells. Begins with the last step's pressure. A fixed number of iterations: nothing waits for a norm.
+/// Conjugate gradients with the multigrid as preconditioner: alone it converges in free air, but
+/// may diverge beside walls thinner than coarse cells. Begins with the last step's pressure. A
+/// fixed number of iterations: nothing waits for a norm.
 void Fluid::solve(int iterations) {
     const glm::ivec2 inner(constants_.inner_cells);
-    const int groups = ((inner.x + WIND_GROUP_X - 1) / WIND_GROUP_X) * ((inner.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y);
+    const int groups = ((inner.x + WIND_GROUP_X - 1) / WIND_GROUP_X) *
+                       ((inner.y + WIND_GROUP_Y - 1) / WIND_GROUP_Y);
     scalars_.clear_to_zero();
     scalars_.bind_storage(BIND_WIND_SCALARS);
     product_.bind_storage(BIND_WIND_PRODUCT);
@@ -328,11 +364,13 @@ void Fluid::set_mean(glm::dvec2 mean_mps) {
     constants_.mean = glm::vec2(mean_mps); // uploaded by step()
 }
 
-void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim, double calm_mps) {
+void Fluid::step(FluidInputs& inputs, double time_s, const shared::WindField& rim,
+                 double calm_mps) {
     time_s_ = time_s;
     const double loudest = inputs.loudest_mps();
     const double limit = std::max(calm_mps, std::isfinite(loudest) ? 1.2 * loudest : calm_mps);
-    constants_.brake_mps = static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_mps)));
+    constants_.brake_mps =
+        static_cast<float>(std::min(limit, static_cast<double>(shared::kWindCeiling_mps)));
     rim_buffer_.upload(&rim, sizeof(rim));
     upload_constants();
     const bool solids_changed = inputs.fill_solids(grid(), moved_ || !solids_known_);

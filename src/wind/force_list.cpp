@@ -12,18 +12,20 @@ using Kind = scene::WindSource::Kind;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kDegree = kPi / 180;
-constexpr double kGravity = 9.81;     // m/s2
-constexpr double kAirDensity = 1.225; // kg/m3
+constexpr double kGravity = 9.81;           // m/s2
+constexpr double kAirDensity = 1.225;       // kg/m3
 constexpr double kContraction = 0.70710678; // of a rotor's wake
-constexpr double kCoreDiameters = 6;  // potential core of a round jet
-constexpr double kRingRadii = 1.5;    // the outwash is fastest here, in radii of the jet that arrives
-constexpr double kReachRadii = 6;     // of rings and vortices whose file gives none
-constexpr double kJetRadii = 4;       // length of a jet's driven core likewise
-// Rates (1/s). Air passes an arrow's disc in 2 radii / strength; by then exp(-4) of the difference is left.
+constexpr double kCoreDiameters = 6;        // potential core of a round jet
+constexpr double kRingRadii = 1.5; // the outwash is fastest here, in radii of the jet that arrives
+constexpr double kReachRadii = 6;  // of rings and vortices whose file gives none
+constexpr double kJetRadii = 4;    // length of a jet's driven core likewise
+// Rates (1/s). Air passes an arrow's disc in 2 radii / strength; by then exp(-4) of the difference
+// is left.
 constexpr double kArrowRate = 4;
 constexpr double kJetRate = 4;
 constexpr double kWakeRate = 1;
-// Inflow draws vorticity together as fast as it flows in: the push must hold the speed against that.
+// Inflow draws vorticity together as fast as it flows in: the push must hold the speed against
+// that.
 constexpr double kVortexRate = 0.5, kInflowRate = 20;
 
 glm::dvec2 heading(double yaw_deg) {
@@ -52,7 +54,8 @@ WindForce arrow_force(const scene::WindArrow& arrow, glm::dvec2 origin, double l
     const double radius = std::max(arrow.radius_m, least_m);
     set_place(force, arrow.tip - origin, glm::normalize(arrow.tip - arrow.root));
     set_extent(force, radius, 0);
-    set_push(force, shared::kForceDisc, arrow.strength_mps, kArrowRate * arrow.strength_mps / (2 * radius));
+    set_push(force, shared::kForceDisc, arrow.strength_mps,
+             kArrowRate * arrow.strength_mps / (2 * radius));
     return force;
 }
 
@@ -66,10 +69,12 @@ void set_ring(WindForce& force, int kind, double speed, double radius, double re
 
 Outwash rotor_outwash(const scene::WindSource& rotor, double height_m) {
     const double area = kPi * rotor.radius_m * rotor.radius_m;
-    const double wake = rotor.strength_mps ? *rotor.strength_mps
-                                          : 2 * std::sqrt(*rotor.mass_kg * kGravity / (2 * kAirDensity * area));
+    const double wake = rotor.strength_mps
+                            ? *rotor.strength_mps
+                            : 2 * std::sqrt(*rotor.mass_kg * kGravity / (2 * kAirDensity * area));
     const double jet_radius = kContraction * rotor.radius_m;
-    const double slowed = std::hypot(1.0, std::max(height_m, 0.0) / (kCoreDiameters * 2 * jet_radius));
+    const double slowed =
+        std::hypot(1.0, std::max(height_m, 0.0) / (kCoreDiameters * 2 * jet_radius));
     return {wake / slowed, kRingRadii * jet_radius * slowed};
 }
 
@@ -83,7 +88,8 @@ void ForceList::set_arrows(std::vector<scene::WindArrow> arrows) {
     spans_ = arrow_spans(arrows_);
 }
 
-WindForce ForceList::force_of(const scene::WindSource& source, double time_s, glm::dvec2 origin) const {
+WindForce ForceList::force_of(const scene::WindSource& source, double time_s,
+                              glm::dvec2 origin) const {
     const Carried at = carried_at(source.where, paths_, time_s);
     const double radius = source.radius_m;
     double strength = source.strength_mps.value_or(0);
@@ -92,7 +98,8 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
     switch (source.kind) {
     case Kind::kRotor: {
         const double ground = at.agl ? 0 : ground_(at.place.x, at.place.y);
-        const Outwash outwash = rotor_outwash(source, source.height_m.value_or(at.height_m - ground));
+        const Outwash outwash =
+            rotor_outwash(source, source.height_m.value_or(at.height_m - ground));
         set_ring(force, shared::kForceRing, outwash.speed_mps, outwash.radius_m, source.reach_m);
         force.reach_m = std::max(force.reach_m, static_cast<float>(1.5 * outwash.radius_m));
         break;
@@ -102,9 +109,11 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         break;
     case Kind::kCyclone:
         set_ring(force, shared::kForceVortex, strength, radius, source.reach_m);
-        force.rate_per_s = static_cast<float>((kVortexRate + kInflowRate * source.inflow) * std::max(strength / radius, 0.5));
+        force.rate_per_s = static_cast<float>((kVortexRate + kInflowRate * source.inflow) *
+                                              std::max(strength / radius, 0.5));
         // Its sign is the turn: an inflow of 0 keeps one.
-        force.inflow = static_cast<float>(std::max(source.inflow, 1e-6) * (source.clockwise ? 1 : -1));
+        force.inflow =
+            static_cast<float>(std::max(source.inflow, 1e-6) * (source.clockwise ? 1 : -1));
         force.velocity = glm::vec2(at.velocity);
         break;
     case Kind::kJet: {
@@ -128,7 +137,8 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s, gl
         set_extent(force, radius, radius);
         set_push(force, shared::kForceWave, strength, 0);
         force.wave_number = static_cast<float>(k);
-        force.wave_phase = static_cast<float>(-std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * kPi));
+        force.wave_phase = static_cast<float>(
+            -std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * kPi));
         break;
     }
     }

@@ -22,7 +22,8 @@ void transform(Complex* data, int n, int stride) {
         }
         j ^= bit;
         if (i < j) {
-            std::swap(data[static_cast<std::ptrdiff_t>(i) * stride], data[static_cast<std::ptrdiff_t>(j) * stride]);
+            std::swap(data[static_cast<std::ptrdiff_t>(i) * stride],
+                      data[static_cast<std::ptrdiff_t>(j) * stride]);
         }
     }
     for (int length = 2; length <= n; length *= 2) {
@@ -45,15 +46,18 @@ std::vector<Complex> random_stream(int n, double peak, std::uint64_t seed, std::
     const double shortest = n / 6.0; // waves of fewer cells would only be smeared by the advection
     for (int row = 0; row < n; ++row) {
         for (int column = 0; column < n; ++column) {
-            const double kx = column <= n / 2 ? column : column - n, ky = row <= n / 2 ? row : row - n;
+            const double kx = column <= n / 2 ? column : column - n,
+                         ky = row <= n / 2 ? row : row - n;
             const double k = std::hypot(kx, ky);
             if (k < 1.5 || k > shortest) {
                 continue;
             }
             const double energy = k * k * k / std::pow(peak * peak + k * k, 7.0 / 3.0);
-            const double amplitude = std::sqrt(energy / (k * k * k)); // |psi| of one mode: energy / (2 pi k) = k^2 |psi|^2
+            const double amplitude = std::sqrt(
+                energy / (k * k * k)); // |psi| of one mode: energy / (2 pi k) = k^2 |psi|^2
             const auto place = static_cast<std::size_t>(row) * n + column;
-            field[place] = std::polar(amplitude, kTwoPi * base::hash_unit(seed, 0x9057 + group, place));
+            field[place] =
+                std::polar(amplitude, kTwoPi * base::hash_unit(seed, 0x9057 + group, place));
         }
     }
     for (int row = 0; row < n; ++row) {
@@ -67,13 +71,15 @@ std::vector<Complex> random_stream(int n, double peak, std::uint64_t seed, std::
 
 } // namespace
 
-void GustSpectrum::velocities(const std::array<double, kGustGroups>& phases, std::vector<float>& u, std::vector<float>& v) const {
+void GustSpectrum::velocities(const std::array<double, kGustGroups>& phases, std::vector<float>& u,
+                              std::vector<float>& v) const {
     const std::size_t count = static_cast<std::size_t>(side) * side;
     std::vector<double> psi(count, 0.0);
     for (std::size_t g = 0; g < stream.size(); ++g) {
         const double c = std::cos(phases[g]), s = std::sin(phases[g]);
         for (std::size_t i = 0; i < count; ++i) {
-            psi[i] += c * static_cast<double>(stream[g][i].x) + s * static_cast<double>(stream[g][i].y);
+            psi[i] +=
+                c * static_cast<double>(stream[g][i].x) + s * static_cast<double>(stream[g][i].y);
         }
     }
     u.resize(count);
@@ -94,7 +100,8 @@ GustSpectrum gust_spectrum(int side, double peak_waves, std::uint64_t seed) {
     out.side = side;
     for (int g = 0; g < kGustGroups; ++g) {
         auto& stream = out.stream[static_cast<std::size_t>(g)];
-        for (const Complex& value : random_stream(side, peak_waves, seed, static_cast<std::uint64_t>(g))) {
+        for (const Complex& value :
+             random_stream(side, peak_waves, seed, static_cast<std::uint64_t>(g))) {
             stream.emplace_back(static_cast<float>(value.real()), static_cast<float>(value.imag()));
         }
     }
@@ -102,7 +109,8 @@ GustSpectrum gust_spectrum(int side, double peak_waves, std::uint64_t seed) {
     out.velocities({}, u, v);
     double sum = 0;
     for (std::size_t i = 0; i < u.size(); ++i) {
-        sum += static_cast<double>(u[i]) * static_cast<double>(u[i]) + static_cast<double>(v[i]) * static_cast<double>(v[i]);
+        sum += static_cast<double>(u[i]) * static_cast<double>(u[i]) +
+               static_cast<double>(v[i]) * static_cast<double>(v[i]);
     }
     const double scale = 1 / std::sqrt(sum / (2.0 * static_cast<double>(u.size())));
     for (auto& stream : out.stream) {

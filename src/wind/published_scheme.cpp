@@ -9,7 +9,8 @@
 
 namespace sward::wind {
 
-PublishedScheme::PublishedScheme(const FluidSettings& settings) : cells_(settings.cells), constants_(sizeof(shared::WindGrid)) {
+PublishedScheme::PublishedScheme(const FluidSettings& settings)
+    : cells_(settings.cells), constants_(sizeof(shared::WindGrid)) {
     shared::WindGrid grid{};
     grid.cells = grid.inner_cells = cells_;
     grid.level_count = 1;
@@ -21,10 +22,13 @@ PublishedScheme::PublishedScheme(const FluidSettings& settings) : cells_(setting
     grid.kept = static_cast<float>(1 / (1 + settings.dissipation_per_s * settings.step_s));
     grid.brake_mps = shared::kWindCeiling_mps;
     constants_.upload(&grid, sizeof(grid));
-    for (const char* name : {"vorticity", "published_advect", "published_confine", "published_divergence", "published_jacobi", "published_project"}) {
-        programs_.emplace(name, gl::Program(std::string("wind ") + name, {std::string("wind/") + name + ".comp"}));
+    for (const char* name : {"vorticity", "published_advect", "published_confine",
+                             "published_divergence", "published_jacobi", "published_project"}) {
+        programs_.emplace(name, gl::Program(std::string("wind ") + name,
+                                            {std::string("wind/") + name + ".comp"}));
     }
-    for (gl::Buffer* buffer : {&u_, &v_, &u_next_, &v_next_, &vorticity_, &rhs_, &pressure_, &next_pressure_}) {
+    for (gl::Buffer* buffer :
+         {&u_, &v_, &u_next_, &v_next_, &vorticity_, &rhs_, &pressure_, &next_pressure_}) {
         *buffer = gl::Buffer(static_cast<std::size_t>(cells_) * cells_ * sizeof(float));
         buffer->clear_to_zero();
     }
@@ -37,7 +41,8 @@ void PublishedScheme::set_state(std::span<const float> u, std::span<const float>
 
 void PublishedScheme::dispatch(const std::string& name) {
     programs_.at(name).use();
-    glDispatchCompute((cells_ + WIND_GROUP_X - 1) / WIND_GROUP_X, (cells_ + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
+    glDispatchCompute((cells_ + WIND_GROUP_X - 1) / WIND_GROUP_X,
+                      (cells_ + WIND_GROUP_Y - 1) / WIND_GROUP_Y, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -10,9 +10,10 @@
 
 namespace sward::wind {
 
-/// The wind as W2 publishes it, its printed errors corrected: semi-Lagrangian advection, vorticity confinement, 40 Jacobi sweeps
-/// from 0, on the same staggered grid, storage and workgroups as Fluid, without its obstacles and rim. It is here to be measured
-/// against (`sward bench wind`); nothing else uses it.
+/// The wind as W2 publishes it, its printed errors corrected: semi-Lagrangian advection, vorticity
+/// confinement, 40 Jacobi sweeps from 0, on the same staggered grid, storage and workgroups as
+/// Fluid, without its obstacles and rim. It is here to be measured against (`sward bench wind`);
+/// nothing else uses it.
 class PublishedScheme {
 public:
     static constexpr int kSweeps = 40;

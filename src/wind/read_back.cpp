@@ -11,8 +11,10 @@ ReadBack::ReadBack(std::size_t bytes) : bytes_(bytes) {
     constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
     for (Slot& slot : slots_) {
         glCreateBuffers(1, &slot.buffer);
-        glNamedBufferStorage(slot.buffer, static_cast<GLsizeiptr>(bytes_), nullptr, kAccess | GL_CLIENT_STORAGE_BIT);
-        slot.mapped = static_cast<const glm::vec4*>(glMapNamedBufferRange(slot.buffer, 0, static_cast<GLsizeiptr>(bytes_), kAccess));
+        glNamedBufferStorage(slot.buffer, static_cast<GLsizeiptr>(bytes_), nullptr,
+                             kAccess | GL_CLIENT_STORAGE_BIT);
+        slot.mapped = static_cast<const glm::vec4*>(
+            glMapNamedBufferRange(slot.buffer, 0, static_cast<GLsizeiptr>(bytes_), kAccess));
         gl::count_gpu_bytes(static_cast<std::int64_t>(bytes_));
     }
 }
@@ -62,7 +64,8 @@ void ReadBack::poll(bool wait) {
             continue;
         }
         const GLuint64 patience = wait ? GL_TIMEOUT_IGNORED : 0;
-        const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence), wait ? GL_SYNC_FLUSH_COMMANDS_BIT : 0, patience);
+        const GLenum state = glClientWaitSync(static_cast<GLsync>(slot.fence),
+                                              wait ? GL_SYNC_FLUSH_COMMANDS_BIT : 0, patience);
         if (state == GL_ALREADY_SIGNALED || state == GL_CONDITION_SATISFIED) {
             release(slot);
             if (landed_ < 0 || slot.order > slots_[static_cast<std::size_t>(landed_)].order) {

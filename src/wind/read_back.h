@@ -10,8 +10,9 @@
 
 namespace sward::wind {
 
-/// Copies of a buffer of cells that arrive on the CPU when they are ready: a ring of mapped buffers with fences, so that no frame
-/// waits. One slot holds what has landed, the others are on their way.
+/// Copies of a buffer of cells that arrive on the CPU when they are ready: a ring of mapped buffers
+/// with fences, so that no frame waits. One slot holds what has landed, the others are on their
+/// way.
 class ReadBack {
 public:
     explicit ReadBack(std::size_t bytes);
@@ -27,7 +28,9 @@ public:
     void clear();
     [[nodiscard]] bool landed() const { return landed_ >= 0; }
     [[nodiscard]] std::span<const glm::vec4> cells() const;
-    [[nodiscard]] const StateTag& tag() const { return slots_[static_cast<std::size_t>(landed_)].tag; }
+    [[nodiscard]] const StateTag& tag() const {
+        return slots_[static_cast<std::size_t>(landed_)].tag;
+    }
 
 private:
     struct Slot {

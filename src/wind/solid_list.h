@@ -18,14 +18,17 @@ using Meshes = std::map<std::filesystem::path, scene::Mesh>;
 /// The obstacles of a scene, from time to a list.
 class SolidList {
 public:
-    /// Throws Error(kBadInput), with the scene's file, for a mesh that is not there or that its height does not meet.
+    /// Throws Error(kBadInput), with the scene's file, for a mesh that is not there or that its
+    /// height does not meet.
     SolidList(const scene::Scene& scene, const Meshes& meshes);
 
     [[nodiscard]] bool empty() const { return obstacles_.empty(); }
-    /// At `time_s`, relative to `origin` (world x, z, m). Boxes and circles are at least a cell thick, so that no wall falls
-    /// between the centres of cells. In the order of the file: where two overlap, the later one's velocity counts.
+    /// At `time_s`, relative to `origin` (world x, z, m). Boxes and circles are at least a cell
+    /// thick, so that no wall falls between the centres of cells. In the order of the file: where
+    /// two overlap, the later one's velocity counts.
     [[nodiscard]] std::vector<shared::WindSolid> at(double time_s, glm::dvec2 origin) const;
-    /// Bits of all footprints; WindSolid::first_word is the first word of its own. At least one word.
+    /// Bits of all footprints; WindSolid::first_word is the first word of its own. At least one
+    /// word.
     [[nodiscard]] const std::vector<std::uint32_t>& words() const { return words_; }
 
 private:
@@ -46,6 +49,7 @@ private:
 /// The rectangle that holds a solid: least x, z, most x, z (m).
 [[nodiscard]] glm::vec4 solid_bounds(const shared::WindSolid& solid);
 /// Whether a solid covers a place, footprints included: the twin of shaders/wind/solids.comp.
-[[nodiscard]] bool covers(const shared::WindSolid& solid, glm::vec2 xz, const std::vector<std::uint32_t>& words);
+[[nodiscard]] bool covers(const shared::WindSolid& solid, glm::vec2 xz,
+                          const std::vector<std::uint32_t>& words);
 
 } // namespace sward::wind

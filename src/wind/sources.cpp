@@ -26,21 +26,24 @@ TileBins bins_of(const std::vector<T>& things, Bounds bounds_of, const FluidGrid
     return bin_tiles(bounds, grid.cells, grid.cell_m);
 }
 
-std::vector<WindForce> those(const std::vector<WindForce>& forces, bool (*wanted)(const WindForce&)) {
+std::vector<WindForce> those(const std::vector<WindForce>& forces,
+                             bool (*wanted)(const WindForce&)) {
     std::vector<WindForce> out;
     std::copy_if(forces.begin(), forces.end(), std::back_inserter(out), wanted);
     return out;
 }
 
 bool same(const std::vector<WindSolid>& a, const std::vector<WindSolid>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(WindSolid)) == 0);
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(WindSolid)) == 0);
 }
 
 /// Speed of a solid's fastest point.
 double speed_of(const WindSolid& solid) {
     const glm::vec4 bounds = solid_bounds(solid);
     const glm::vec2 place = solid.place;
-    const glm::vec2 far = glm::max(glm::abs(glm::vec2(bounds) - place), glm::abs(glm::vec2(bounds.z, bounds.w) - place));
+    const glm::vec2 far = glm::max(glm::abs(glm::vec2(bounds) - place),
+                                   glm::abs(glm::vec2(bounds.z, bounds.w) - place));
     return glm::length(solid.velocity) + std::abs(solid.turn_rad_s) * glm::length(far);
 }
 
@@ -67,7 +70,8 @@ void BinnedList::dispatch(const gl::Program& program, std::uint32_t things_bindi
 
 Sources::Sources(const scene::Scene& scene, const Meshes& meshes, GroundHeight ground)
     : forces_(scene.wind, scene.paths, std::move(ground)), solids_(scene, meshes),
-      force_program_("wind forces", {"wind/forces.comp"}), inflow_program_("wind inflow", {"wind/forces.comp"}, {"INFLOW"}),
+      force_program_("wind forces", {"wind/forces.comp"}),
+      inflow_program_("wind inflow", {"wind/forces.comp"}, {"INFLOW"}),
       solid_program_("wind solids", {"wind/solids.comp"}),
       footprints_(gl::Buffer::of(std::span<const std::uint32_t>(solids_.words()))) {}
 
@@ -82,7 +86,8 @@ bool Sources::fill_solids(const FluidGrid& grid, bool moved) {
     drawn_ = std::move(solids);
     const std::uint32_t air = 0;
     glClearNamedBufferData(grid.solid->id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &air);
-    glClearNamedBufferData(grid.solid_velocity->id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &air);
+    glClearNamedBufferData(grid.solid_velocity->id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                           &air);
     grid.solid->bind_storage(BIND_WIND_SOLID);
     grid.solid_velocity->bind_storage(BIND_WIND_SOLID_VELOCITY);
     footprints_.bind_storage(BIND_WIND_FOOTPRINTS);

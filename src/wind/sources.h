@@ -12,7 +12,8 @@
 
 namespace sward::wind {
 
-/// A list on the GPU, binned by tiles: what the passes over forces and solids read. One workgroup a tile.
+/// A list on the GPU, binned by tiles: what the passes over forces and solids read. One workgroup a
+/// tile.
 class BinnedList {
 public:
     template<class T> void upload(const std::vector<T>& things, const TileBins& bins) {
@@ -30,19 +31,24 @@ private:
     std::size_t tile_count_ = 0;
 };
 
-/// A scene's arrows, sources and obstacles as the fluid's inputs. Cost follows the area that they cover.
+/// A scene's arrows, sources and obstacles as the fluid's inputs. Cost follows the area that they
+/// cover.
 class Sources final : public FluidInputs {
 public:
-    /// Throws Error(kBadInput) for an obstacle's mesh that is not there or that its height does not meet.
+    /// Throws Error(kBadInput) for an obstacle's mesh that is not there or that its height does not
+    /// meet.
     Sources(const scene::Scene& scene, const Meshes& meshes, GroundHeight ground);
 
-    /// Arrows of the editor, in the place of the scene's, from the next step on. Every parent is there; chains end.
+    /// Arrows of the editor, in the place of the scene's, from the next step on. Every parent is
+    /// there; chains end.
     void set_arrows(std::vector<scene::WindArrow> arrows) { forces_.set_arrows(std::move(arrows)); }
 
     /// A window is simulated even while nothing stands or pushes.
     void keep_active() { always_active_ = true; }
 
-    [[nodiscard]] bool active() const override { return always_active_ || !forces_.empty() || !solids_.empty(); }
+    [[nodiscard]] bool active() const override {
+        return always_active_ || !forces_.empty() || !solids_.empty();
+    }
     bool fill_solids(const FluidGrid& grid, bool moved) override;
     void apply_forces(const FluidGrid& grid) override;
     [[nodiscard]] double loudest_mps() const override;
@@ -59,7 +65,7 @@ private:
     gl::Buffer footprints_;
     std::vector<shared::WindSolid> drawn_; ///< what the solid mask holds
     bool always_active_ = false;
-    bool has_inflow_ = false;              ///< whether the grid's inflow is anything but 0
+    bool has_inflow_ = false; ///< whether the grid's inflow is anything but 0
     double loudest_force_mps_ = 0, loudest_solid_mps_ = 0;
 };
 

@@ -7,7 +7,8 @@
 
 namespace sward::wind {
 
-/// Which states a buffer of cells holds, and where they lie: the latest at latest * step_s, the previous one step before.
+/// Which states a buffer of cells holds, and where they lie: the latest at latest * step_s, the
+/// previous one step before.
 struct StateTag {
     std::int64_t latest = 0;
     std::int64_t first = 0; ///< the first state of its run, which has no other before it
@@ -18,7 +19,9 @@ struct StateTag {
 
     /// Share of the latest state at a time; times outside the two states take the nearer one.
     [[nodiscard]] float share(double time_s) const {
-        return latest == first ? 1.0f : static_cast<float>(glm::clamp(time_s / step_s - static_cast<double>(latest - 1), 0.0, 1.0));
+        return latest == first ? 1.0f
+                               : static_cast<float>(glm::clamp(
+                                     time_s / step_s - static_cast<double>(latest - 1), 0.0, 1.0));
     }
 };
 

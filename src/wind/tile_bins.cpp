@@ -16,12 +16,13 @@ struct TileRange {
 /// A cell's faces are half a cell from its centre: a rim of one cell catches them.
 TileRange tiles_of(const glm::vec4& bounds, int cells, double cell_m) {
     const auto tile = [&](double metres, double rim) {
-        const double cell = std::clamp(std::floor(metres / cell_m) + rim, -1.0 * WIND_TILE, 1.0 * cells + WIND_TILE);
+        const double cell = std::clamp(std::floor(metres / cell_m) + rim, -1.0 * WIND_TILE,
+                                       1.0 * cells + WIND_TILE);
         return static_cast<int>(std::floor(cell / WIND_TILE));
     };
     const int last = (cells - 1) / WIND_TILE;
-    return {std::max(tile(bounds.x, -1), 0), std::max(tile(bounds.y, -1), 0), std::min(tile(bounds.z, 1), last),
-            std::min(tile(bounds.w, 1), last)};
+    return {std::max(tile(bounds.x, -1), 0), std::max(tile(bounds.y, -1), 0),
+            std::min(tile(bounds.z, 1), last), std::min(tile(bounds.w, 1), last)};
 }
 
 } // namespace
@@ -29,7 +30,8 @@ TileRange tiles_of(const glm::vec4& bounds, int cells, double cell_m) {
 TileBins bin_tiles(std::span<const glm::vec4> bounds, int cells, double cell_m) {
     const int side = (cells + WIND_TILE - 1) / WIND_TILE;
     std::vector<TileRange> ranges;
-    std::vector<std::uint32_t> counts(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
+    std::vector<std::uint32_t> counts(
+        static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
     const auto each_tile = [&](const TileRange& r, auto&& visit) {
         for (int z = r.z0; z <= r.z1; ++z)
             for (int x = r.x0; x <= r.x1; ++x)
@@ -47,12 +49,15 @@ TileBins bin_tiles(std::span<const glm::vec4> bounds, int cells, double cell_m) 
         if (counts[tile] == 0)
             continue;
         const int at = static_cast<int>(tile);
-        bins.tiles.emplace_back(at % side, at / side, static_cast<int>(first), static_cast<int>(counts[tile]));
+        bins.tiles.emplace_back(at % side, at / side, static_cast<int>(first),
+                                static_cast<int>(counts[tile]));
         first += counts[tile];
     }
     bins.items.resize(first);
     for (std::size_t i = 0; i < ranges.size(); ++i)
-        each_tile(ranges[i], [&](std::size_t tile) { bins.items[next[tile]++] = static_cast<std::uint32_t>(i); });
+        each_tile(ranges[i], [&](std::size_t tile) {
+            bins.items[next[tile]++] = static_cast<std::uint32_t>(i);
+        });
     return bins;
 }
 

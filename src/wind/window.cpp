@@ -7,7 +7,9 @@ namespace sward::wind {
 
 namespace {
 
-constexpr double kCalm_mps = 6, kCalmOfMean = 2; // air braked above this: eddies behind obstacles, dying gusts stay below
+constexpr double kCalm_mps = 6,
+                 kCalmOfMean =
+                     2; // air braked above this: eddies behind obstacles, dying gusts stay below
 
 FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
     FluidSettings settings;
@@ -21,7 +23,9 @@ FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
     return settings;
 }
 
-double calm_of(const scene::WindSpec& spec) { return kCalm_mps + kCalmOfMean * spec.speed_mps * (1 + spec.gust); }
+double calm_of(const scene::WindSpec& spec) {
+    return kCalm_mps + kCalmOfMean * spec.speed_mps * (1 + spec.gust);
+}
 
 } // namespace
 
@@ -38,11 +42,14 @@ Window::Window(const scene::WindSpec& spec, glm::dvec2 mean_mps)
 }
 
 glm::ivec2 Window::first_for(glm::dvec2 eye) const {
-    const glm::dvec2 centre = glm::round(eye / (tag_.cell_m * kMoveCells)) * static_cast<double>(kMoveCells);
+    const glm::dvec2 centre =
+        glm::round(eye / (tag_.cell_m * kMoveCells)) * static_cast<double>(kMoveCells);
     return glm::ivec2(glm::clamp(centre, glm::dvec2(-1e9), glm::dvec2(1e9))) - tag_.cells / 2;
 }
 
-glm::dvec2 Window::corner_for(glm::dvec2 eye) const { return glm::dvec2(first_for(eye)) * tag_.cell_m; }
+glm::dvec2 Window::corner_for(glm::dvec2 eye) const {
+    return glm::dvec2(first_for(eye)) * tag_.cell_m;
+}
 
 void Window::begin(glm::dvec2 eye, std::int64_t first, const shared::WindField& ambient) {
     tag_.latest = tag_.first = first;

@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the KTX 2.0 specification (revision 4) and Khronos Data Format 1.3 ask of a texture file, for the formats and schemes that texgen writes:
-ktx2_check.py FILE ... prints what is wrong with each and ends with 1 if anything is. It reads no shared code: a second opinion on the writer."""
+"""What the KTX 2.0 specification (revision 4) and Khronos Data Format 1.3 ask of a texture file,
+for the formats and schemes that texgen writes:
+ktx2_check.py FILE ... prints what is wrong with each and ends with 1 if anything is. It reads no
+shared code: a second opinion on the writer."""
+
 import math
 import struct
 import sys
@@ -17,17 +20,41 @@ ORIENTATION = (b"rd", b"ru", b"ld", b"lu")
 
 
 def plain(bits, qualifier=0, alpha=0, low=0, high=255):
-    return [(c * bits, bits - 1, channel | qualifier | (alpha if channel == ALPHA else 0), low, high)
-            for c, channel in enumerate((RED, GREEN, BLUE, ALPHA))]
+    return [
+        (c * bits, bits - 1, channel | qualifier | (alpha if channel == ALPHA else 0), low, high)
+        for c, channel in enumerate((RED, GREEN, BLUE, ALPHA))
+    ]
 
 
-# VkFormat: bytes of a number (1 of a block), texels a block's side, bytes of it, colour model, transfer, samples: bit, bits - 1, channel, low, high
+# VkFormat: bytes of a number (1 of a block), texels a block's side, bytes of it, colour model,
+# transfer, samples: bit, bits - 1, channel, low, high
 FORMATS = {
     37: (1, 1, 4, RGBSDA, LINEAR, plain(8)),  # R8G8B8A8_UNORM
     43: (1, 1, 4, RGBSDA, SRGB, plain(8, alpha=QUALIFIER_LINEAR)),  # R8G8B8A8_SRGB
-    97: (2, 1, 8, RGBSDA, LINEAR, plain(16, FLOAT_SIGNED, low=MINUS_ONE, high=ONE)),  # R16G16B16A16_SFLOAT
-    109: (4, 1, 16, RGBSDA, LINEAR, plain(32, FLOAT_SIGNED, low=MINUS_ONE, high=ONE)),  # R32G32B32A32_SFLOAT
-    141: (1, 4, 16, BC5_MODEL, LINEAR, [(0, 63, RED, 0, 0xFFFFFFFF), (64, 63, GREEN, 0, 0xFFFFFFFF)]),  # BC5_UNORM_BLOCK
+    97: (
+        2,
+        1,
+        8,
+        RGBSDA,
+        LINEAR,
+        plain(16, FLOAT_SIGNED, low=MINUS_ONE, high=ONE),
+    ),  # R16G16B16A16_SFLOAT
+    109: (
+        4,
+        1,
+        16,
+        RGBSDA,
+        LINEAR,
+        plain(32, FLOAT_SIGNED, low=MINUS_ONE, high=ONE),
+    ),  # R32G32B32A32_SFLOAT
+    141: (
+        1,
+        4,
+        16,
+        BC5_MODEL,
+        LINEAR,
+        [(0, 63, RED, 0, 0xFFFFFFFF), (64, 63, GREEN, 0, 0xFFFFFFFF)],
+    ),  # BC5_UNORM_BLOCK
 }
 
 
@@ -41,13 +68,17 @@ def zstd_frame(data):
     single, at = descriptor >> 5 & 1, 5
     at += (0 if single else 1) + (0, 1, 2, 4)[descriptor & 3]
     width = (single, 2, 4, 8)[descriptor >> 6]
-    size = int.from_bytes(data[at:at + width], "little") + (256 if width == 2 else 0) if width else None
+    size = (
+        int.from_bytes(data[at : at + width], "little") + (256 if width == 2 else 0)
+        if width
+        else None
+    )
     at += width
     last = False
     while not last:
         if at + 3 > len(data):
             raise ValueError("the frame ends within a block")
-        head = int.from_bytes(data[at:at + 3], "little")
+        head = int.from_bytes(data[at : at + 3], "little")
         last, kind = head & 1, head >> 1 & 3
         if kind == 3:
             raise ValueError("a block of a reserved type")
@@ -58,15 +89,19 @@ def zstd_frame(data):
 def key_values(data, say):
     found, at = [], 0
     while at < len(data):
-        length, = struct.unpack_from("<I", data, at)
-        entry, end = data[at + 4:at + 4 + length], at + 4 + length
+        (length,) = struct.unpack_from("<I", data, at)
+        entry, end = data[at + 4 : at + 4 + length], at + 4 + length
         if length < 2 or end > len(data) or b"\0" not in entry[:-1]:
             return say("key/value data: an entry without a key, or past its end")
         key, value = entry.split(b"\0", 1)
-        padding = data[end:end + -end % 4]
+        padding = data[end : end + -end % 4]
         if len(padding) != -end % 4 or any(padding):
             say(f"key {key}: padding is not zero up to four bytes")
-        if key.startswith((b"KTX", b"ktx")) and key not in (b"KTXwriter", b"KTXorientation", b"KTXswizzle"):
+        if key.startswith((b"KTX", b"ktx")) and key not in (
+            b"KTXwriter",
+            b"KTXorientation",
+            b"KTXswizzle",
+        ):
             say(f"key {key}: reserved, and not one that these files have a use for")
         if key.startswith(b"KTX") and (value[-1:] != b"\0" or b"\0" in value[:-1]):
             say(f"key {key}: its value does not end with its only NUL")
@@ -85,16 +120,41 @@ def descriptor(data, form, say):
     head = struct.unpack_from("<I2I8B8B", data) if len(data) >= 28 else None
     if head is None or head[0] != len(data):
         return say("data format descriptor: its own size is another")
-    wanted = (len(data), 0, 2 | (len(data) - 4) << 16, model, 1, transfer, 0, side - 1, side - 1, 0, 0, block, 0, 0, 0, 0, 0, 0, 0)
+    wanted = (
+        len(data),
+        0,
+        2 | (len(data) - 4) << 16,
+        model,
+        1,
+        transfer,
+        0,
+        side - 1,
+        side - 1,
+        0,
+        0,
+        block,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+        0,
+    )
     if head[:11] != wanted[:11] or head[11] not in (block, 0) or any(head[12:]):
         say(f"data format descriptor: {head}, expected {wanted}")
-    found = [(bit, length, channel, low, high) for bit, length, channel, place, low, high in struct.iter_unpack("<HBBIII", data[28:]) if place == 0]
+    found = [
+        (bit, length, channel, low, high)
+        for bit, length, channel, place, low, high in struct.iter_unpack("<HBBIII", data[28:])
+        if place == 0
+    ]
     if found != samples:
         say(f"samples: {found}, expected {samples}")
 
 
 def levels(data, start, shape, packing, say):
-    """The level index and the data: smallest first, one after the other, aligned, to the end of the file."""
+    """The level index and the data: smallest first, one after the other, aligned, to the end of the
+    file."""
     width, height, images, count = shape
     side, block, scheme = packing
     align, end = (math.lcm(block, 4) if scheme == NONE else 1), start
@@ -102,7 +162,9 @@ def levels(data, start, shape, packing, say):
         offset, length, unpacked = struct.unpack_from("<3Q", data, 80 + 24 * m)
         blocks = [-(-max(1, n >> m) // side) for n in (width, height)]
         if unpacked != blocks[0] * blocks[1] * block * images:
-            say(f"level {m}: unpacks to {unpacked} bytes, expected {blocks[0] * blocks[1] * block * images}")
+            say(
+                f"level {m}: unpacks to {unpacked} bytes, expected {blocks[0] * blocks[1] * block * images}"
+            )
         wanted = end + -end % align
         if offset != wanted or any(data[end:offset]):
             say(f"level {m}: begins at {offset}, expected {wanted} after zeros")
@@ -118,7 +180,9 @@ def levels(data, start, shape, packing, say):
                 say(f"level {m}: {problem}")
                 continue
             if frame != length or size not in (None, unpacked):
-                say(f"level {m}: a frame of {frame} bytes that unpacks to {size}, expected {length} and {unpacked}")
+                say(
+                    f"level {m}: a frame of {frame} bytes that unpacks to {size}, expected {length} and {unpacked}"
+                )
     if end != len(data):
         say(f"{len(data) - end} bytes after the last level")
 
@@ -129,7 +193,23 @@ def problems(data):
     say = found.append
     if data[:12] != IDENTIFIER or len(data) < 104:
         return ["no KTX 2.0"]
-    fmt, type_size, width, height, depth, images, faces, count, scheme, dfd, dfd_size, kvd, kvd_size, sgd, sgd_size = struct.unpack_from("<13I2Q", data, 12)
+    (
+        fmt,
+        type_size,
+        width,
+        height,
+        depth,
+        images,
+        faces,
+        count,
+        scheme,
+        dfd,
+        dfd_size,
+        kvd,
+        kvd_size,
+        sgd,
+        sgd_size,
+    ) = struct.unpack_from("<13I2Q", data, 12)
     form = FORMATS.get(fmt)
     if form is None or scheme not in (NONE, ZSTD):
         return [f"format {fmt}, scheme {scheme}: not known here"]
@@ -145,10 +225,18 @@ def problems(data):
     if dfd != place or dfd_size % 4:
         say(f"data format descriptor at {dfd}, expected {place}")
     if (kvd, kvd_size > 0) != (dfd + dfd_size, True) or kvd + kvd_size > len(data):
-        return found + [f"key/value data at {kvd}, {kvd_size} bytes, expected after {dfd + dfd_size}"]
-    descriptor(data[dfd:dfd + dfd_size], form, say)
-    key_values(data[kvd:kvd + kvd_size], say)
-    levels(data, kvd + kvd_size, (width, height, max(1, images), count), (form[1], form[2], scheme), say)
+        return found + [
+            f"key/value data at {kvd}, {kvd_size} bytes, expected after {dfd + dfd_size}"
+        ]
+    descriptor(data[dfd : dfd + dfd_size], form, say)
+    key_values(data[kvd : kvd + kvd_size], say)
+    levels(
+        data,
+        kvd + kvd_size,
+        (width, height, max(1, images), count),
+        (form[1], form[2], scheme),
+        say,
+    )
     return found
 
 

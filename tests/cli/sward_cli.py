@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the tests of the programs share: running them, a tiny scene, and what a refusal must look like."""
+"""What the tests of the programs share: running them, a tiny scene, and what a refusal must look
+like."""
+
 import fcntl
 import json
 import math
@@ -82,11 +84,20 @@ class Result:
 
 
 def environment(**changes):
-    """Software rendering, no display, caches of our own; shaders stay compiled whatever cache a test asks for. A value of None removes the
+    """Software rendering, no display, caches of our own; shaders stay compiled whatever cache a
+    test asks for. A value of None removes the
     variable."""
-    WORK.mkdir(parents=True, exist_ok=True)  # Mesa makes one folder, not two: without this every run compiles every shader
-    env = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1", EGL_PLATFORM="surfaceless",
-               XDG_CACHE_HOME=str(WORK / "cache"), MESA_SHADER_CACHE_DIR=str(WORK / "cache"), LC_ALL="C.UTF-8")
+    WORK.mkdir(
+        parents=True, exist_ok=True
+    )  # Mesa makes one folder, not two: without this every run compiles every shader
+    env = dict(
+        os.environ,
+        LIBGL_ALWAYS_SOFTWARE="1",
+        EGL_PLATFORM="surfaceless",
+        XDG_CACHE_HOME=str(WORK / "cache"),
+        MESA_SHADER_CACHE_DIR=str(WORK / "cache"),
+        LC_ALL="C.UTF-8",
+    )
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         env.pop(name, None)
     for name, value in changes.items():
@@ -97,11 +108,19 @@ def environment(**changes):
 
 
 def run(program, *arguments, cwd=None, env=None, prefix=(), limits=None, timeout=600):
-    """Runs a program of the build and waits. `prefix`: a command that runs it; `limits`: called in the child."""
+    """Runs a program of the build and waits. `prefix`: a command that runs it; `limits`: called in
+    the child."""
     command = [*prefix, str(BIN / program), *map(str, arguments)]
     with tempfile.TemporaryFile() as out, tempfile.TemporaryFile() as err:
-        child = subprocess.Popen(command, cwd=cwd, env=env or environment(), stdin=subprocess.DEVNULL,
-                                 stdout=out, stderr=err, preexec_fn=limits)
+        child = subprocess.Popen(
+            command,
+            cwd=cwd,
+            env=env or environment(),
+            stdin=subprocess.DEVNULL,
+            stdout=out,
+            stderr=err,
+            preexec_fn=limits,
+        )
         watch = threading.Timer(timeout, child.kill)
         watch.start()
         _, status, usage = os.wait4(child.pid, 0)
@@ -109,8 +128,12 @@ def run(program, *arguments, cwd=None, env=None, prefix=(), limits=None, timeout
         child.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
         err.seek(0)
-        return Result(child.returncode, out.read().decode(errors="replace"),
-                      err.read().decode(errors="replace"), usage)
+        return Result(
+            child.returncode,
+            out.read().decode(errors="replace"),
+            err.read().decode(errors="replace"),
+            usage,
+        )
 
 
 def without_root():
@@ -122,7 +145,9 @@ def without_root():
 
 def write_height(path, side=33, spacing=10.0):
     """Raw posts with a few gentle hills, and their header beside them."""
-    posts = [20 + 8 * math.sin(i % side / 5) + 5 * math.cos(i // side / 4) for i in range(side * side)]
+    posts = [
+        20 + 8 * math.sin(i % side / 5) + 5 * math.cos(i // side / 4) for i in range(side * side)
+    ]
     path.write_bytes(struct.pack(f"<{len(posts)}f", *posts))
     header = {"width": side, "height": side, "spacing_m": [spacing, spacing]}
     path.with_suffix(".json").write_text(json.dumps(header))
@@ -137,13 +162,16 @@ def tiny_set():
         made = target / "set.json"
         if not made.exists() or made.stat().st_mtime < (FULL_BIN / "texgen").stat().st_mtime:
             preset.write_text(TINY_PRESET)
-            result = run(FULL_BIN / "texgen", preset, "-o", target, "-q", "--no-volume", "--no-preview")
+            result = run(
+                FULL_BIN / "texgen", preset, "-o", target, "-q", "--no-volume", "--no-preview"
+            )
             assert result.code == 0, result.err
     return target
 
 
 def temporaries(folder):
-    """Files and folders below a folder that a program is still writing, each with how many entries it has; what goes while we look is not an
+    """Files and folders below a folder that a program is still writing, each with how many entries
+    it has; what goes while we look is not an
     error, as it is for Path.rglob."""
     found = {}
     for place, folders, files in os.walk(folder):
@@ -159,7 +187,10 @@ def snapshot(folder):
     for path in sorted(Path(folder).rglob("*")):
         info = path.lstat()
         names[str(path.relative_to(folder))] = (info.st_mode, info.st_size, info.st_mtime_ns)
-    return {name: value if not Path(folder, name).is_dir() else value[0] for name, value in names.items()}
+    return {
+        name: value if not Path(folder, name).is_dir() else value[0]
+        for name, value in names.items()
+    }
 
 
 def copy_what_stays(source, target):
@@ -186,12 +217,18 @@ class CliCase(unittest.TestCase):
         return self.dir / name
 
     def own_shaders(self):
-        """An environment with a copy of the compiled shaders: for a program that must not write them to the end."""
+        """An environment with a copy of the compiled shaders: for a program that must not write
+        them to the end."""
         folder = tempfile.TemporaryDirectory(prefix="sward-shaders-")
         self.addCleanup(folder.cleanup)
         kept = WORK / "cache/mesa_shader_cache"
         if kept.exists():
-            shutil.copytree(kept, Path(folder.name) / kept.name, ignore=shutil.ignore_patterns("*.tmp"), copy_function=copy_what_stays)
+            shutil.copytree(
+                kept,
+                Path(folder.name) / kept.name,
+                ignore=shutil.ignore_patterns("*.tmp"),
+                copy_function=copy_what_stays,
+            )
         return environment(MESA_SHADER_CACHE_DIR=folder.name)
 
     def sward(self, *arguments, **options):
@@ -241,14 +278,20 @@ def interrupt(child, number, ready, timeout=600):
 
 def start(program, *arguments, cwd=None, env=None):
     """Starts a program with the default answer to SIGINT, whatever this process inherited."""
-    return subprocess.Popen([str(BIN / program), *map(str, arguments)], cwd=cwd, env=env or environment(),
-                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                            stderr=subprocess.PIPE,
-                            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    return subprocess.Popen(
+        [str(BIN / program), *map(str, arguments)],
+        cwd=cwd,
+        env=env or environment(),
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+    )
 
 
 def main():
-    """Runs the tests of a file. A skip ends with 77, which ctest counts as skipped: none goes unseen."""
+    """Runs the tests of a file. A skip ends with 77, which ctest counts as skipped: none goes
+    unseen."""
     program = unittest.main(exit=False, verbosity=2)
     if not program.result.wasSuccessful() or program.result.testsRun == 0:
         sys.exit(1)

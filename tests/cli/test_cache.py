@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Presets in scenes: baked on first use, found again, rebuilt when the cache cannot be trusted."""
+
 import os
 import threading
 
@@ -40,8 +41,12 @@ class Cache(CliCase):
     def test_damaged(self):
         first, _ = self.picture()
         content = {path.name: path.read_bytes() for path in self.baked()[0].iterdir()}
-        damages = [lambda s: (s / "set.json").write_text("{}"), lambda s: (s / "layers.ktx2").unlink(),
-                   lambda s: (s / "slices.ktx2").write_bytes(b"x"), lambda s: (s / "more").mkdir()]
+        damages = [
+            lambda s: (s / "set.json").write_text("{}"),
+            lambda s: (s / "layers.ktx2").unlink(),
+            lambda s: (s / "slices.ktx2").write_bytes(b"x"),
+            lambda s: (s / "more").mkdir(),
+        ]
         for damage in damages[:3]:
             damage(self.baked()[0])
             again, said = self.picture()
@@ -96,8 +101,16 @@ class Cache(CliCase):
         closed = self.dir / "closed"
         closed.mkdir(mode=0o555)
         env = environment(XDG_CACHE_HOME=closed)
-        self.refuse(5, ["closed", "XDG_CACHE_HOME"], "render", "scene.toml", "-o", "out.png", env=env,
-                    prefix=sward_cli.without_root())
+        self.refuse(
+            5,
+            ["closed", "XDG_CACHE_HOME"],
+            "render",
+            "scene.toml",
+            "-o",
+            "out.png",
+            env=env,
+            prefix=sward_cli.without_root(),
+        )
 
     def test_shipped_preset(self):
         """A preset that lies nowhere beside the scene is one of those that ship."""

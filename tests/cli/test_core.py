@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The preset `core`: builds without the heavy libraries, links none of them, and renders .hgt and raw elevation."""
+"""The preset `core`: builds without the heavy libraries, links none of them, and renders .hgt and
+raw elevation."""
+
 import array
 import json
 import math
@@ -15,7 +17,9 @@ HEAVY = ("OpenImageIO", "gdal", "openvdb", "glfw", "OpenEXR", "tbb")
 def setUpModule():
     """Configures and builds; ninja and ccache make a second run quick."""
     if not (CORE / "build.ninja").exists():
-        subprocess.run(["cmake", "--preset", "core"], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["cmake", "--preset", "core"], cwd=SOURCE, check=True, stdout=subprocess.DEVNULL
+        )
     subprocess.run(["ninja", "-C", str(CORE), "sward"], check=True)
     sward_cli.BIN = CORE / "bin"
 
@@ -24,13 +28,15 @@ class Core(CliCase):
     def picture(self, name):
         """(width, height, number of colours) of a PPM."""
         data = (self.dir / name).read_bytes()
-        magic, width, height, most, pixels = data.split(maxsplit=4)[:4] + [data[-3 * 64 * 36:]]
+        magic, width, height, most, pixels = data.split(maxsplit=4)[:4] + [data[-3 * 64 * 36 :]]
         self.assertEqual((magic, most), (b"P6", b"255"))
-        colours = {pixels[i:i + 3] for i in range(0, len(pixels), 3)}
+        colours = {pixels[i : i + 3] for i in range(0, len(pixels), 3)}
         return int(width), int(height), len(colours)
 
     def render_here(self):
-        result = self.sward("render", "scene.toml", "-o", "out.ppm", "--size", SIZE, "--stats", "s.json")
+        result = self.sward(
+            "render", "scene.toml", "-o", "out.ppm", "--size", SIZE, "--stats", "s.json"
+        )
         self.assert_done(result)
         width, height, colours = self.picture("out.ppm")
         self.assertEqual((width, height), (64, 36))
@@ -51,8 +57,9 @@ class Core(CliCase):
         self.render_here()
 
     def test_links(self):
-        linked = subprocess.run(["ldd", str(CORE / "bin/sward")], check=True, capture_output=True,
-                                text=True).stdout
+        linked = subprocess.run(
+            ["ldd", str(CORE / "bin/sward")], check=True, capture_output=True, text=True
+        ).stdout
         for name in HEAVY:
             self.assertNotIn(f"lib{name}", linked)
 

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """A vehicle and an aircraft in the viewer, under the keyboard."""
+
 import sward_cli
 from test_view import ESCAPE, ViewCase
 
 
 class Drive(ViewCase):
     def begin(self, *arguments):
-        """The viewer, its window, what tells a pose, and what waits for one; a picture is a fifth of a second."""
-        child = self.view("--window", "64x36", "--fixed-timestep", "0.2", "--samples", "1", *arguments)
+        """The viewer, its window, what tells a pose, and what waits for one; a picture is a fifth
+        of a second."""
+        child = self.view(
+            "--window", "64x36", "--fixed-timestep", "0.2", "--samples", "1", *arguments
+        )
         self.wait_for(lambda: self.display.colours() > 100, child)
         window = self.display.windows()[-1]
 
@@ -41,17 +45,40 @@ class Drive(ViewCase):
 
     def test_refusals(self):
         for option in ("--drive", "--fly"):
-            self.refuse(2, [option, "nothing", "one that ships"], "view", "scene.toml", option, "nothing", env=self.env)
+            self.refuse(
+                2,
+                [option, "nothing", "one that ships"],
+                "view",
+                "scene.toml",
+                option,
+                "nothing",
+                env=self.env,
+            )
         (self.dir / "bad.toml").write_text("mass_kg = -1\n")
         for option in ("--drive", "--fly"):
-            self.refuse(3, ["bad.toml:1", "mass_kg", "-1"], "view", "scene.toml", option, "bad.toml", env=self.env)
+            self.refuse(
+                3,
+                ["bad.toml:1", "mass_kg", "-1"],
+                "view",
+                "scene.toml",
+                option,
+                "bad.toml",
+                env=self.env,
+            )
 
     def test_drive(self):
         """With the keyboard: away to the north, to the right, and to a stop."""
-        child, window, pose, until = self.begin("--drive", "car", "--tyres-on", "road", "--camera", "0,1,0,0,0")
+        child, window, pose, until = self.begin(
+            "--drive", "car", "--tyres-on", "road", "--camera", "0,1,0,0,0"
+        )
 
         start = pose()
-        self.assertAlmostEqual(start[0], -0.35, delta=0.4, msg="the driver's seat, in a car that stands aslant on the hill")
+        self.assertAlmostEqual(
+            start[0],
+            -0.35,
+            delta=0.4,
+            msg="the driver's seat, in a car that stands aslant on the hill",
+        )
         self.assertAlmostEqual(start[1], 1.2, delta=0.2)
         self.display.key(window, "w", True)
         until(lambda at: at[2] < start[2] - 20)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The host of docs/embedding: built out of the tree from the installed package, by pkg-config and beside the source tree; its picture looked at."""
+"""The host of docs/embedding: built out of the tree from the installed package, by pkg-config and
+beside the source tree; its picture looked at."""
+
 import json
 import math
 import os
@@ -30,7 +32,7 @@ def read_ppm(path):
     data = path.read_bytes()
     magic, width, height, most = data.split(maxsplit=4)[:4]
     assert (magic, most) == (b"P6", b"255"), data[:20]
-    return int(width), int(height), data[-3 * int(width) * int(height):]
+    return int(width), int(height), data[-3 * int(width) * int(height) :]
 
 
 def banked_camera():
@@ -41,7 +43,10 @@ def banked_camera():
     right = [math.cos(roll) * level[i] - math.sin(roll) * above[i] for i in range(3)]
     up = [math.cos(roll) * above[i] + math.sin(roll) * level[i] for i in range(3)]
     eye = (0, 18, 0)  # the ground is 16.3 there
-    rows = [[*axis, -sum(axis[i] * eye[i] for i in range(3))] for axis in (right, up, [-a for a in ahead])]
+    rows = [
+        [*axis, -sum(axis[i] * eye[i] for i in range(3))]
+        for axis in (right, up, [-a for a in ahead])
+    ]
     f = 1 / math.tan(math.radians(30))
     clip = [f * HEIGHT / WIDTH, 0, 0, 0, 0, f, 0, 0, 0, 0, 0, 0.05000000074505806, 0, 0, -1, 0]
     return {"view_from_world": sum(rows, []) + [0, 0, 0, 1], "clip_from_view": clip}
@@ -64,7 +69,18 @@ class Embedding(unittest.TestCase):
     def build(self, name, *options, **environment):
         build = self.dir / name
         env = dict(os.environ, **environment)
-        run("cmake", "-G", "Ninja", "-S", EMBEDDING, "-B", build, "-DCMAKE_BUILD_TYPE=Release", *options, env=env)
+        run(
+            "cmake",
+            "-G",
+            "Ninja",
+            "-S",
+            EMBEDDING,
+            "-B",
+            build,
+            "-DCMAKE_BUILD_TYPE=Release",
+            *options,
+            env=env,
+        )
         run("ninja", "-C", build, "host", env=env)
         out = self.dir / f"{name}.ppm"
         run(build / "host", self.scene / "scene.toml", self.set, out, env=sward_cli.environment())
@@ -73,7 +89,7 @@ class Embedding(unittest.TestCase):
     def check(self, picture):
         width, height, rgb = picture
         self.assertEqual((width, height), (WIDTH, HEIGHT))
-        pixels = [rgb[i:i + 3] for i in range(0, len(rgb), 3)]
+        pixels = [rgb[i : i + 3] for i in range(0, len(rgb), 3)]
         red = [i for i, p in enumerate(pixels) if p[0] > 150 and p[1] < 90 and p[2] < 90]
         self.assertGreater(len(set(pixels)), 200, "black, or next to it")
         self.assertGreater(len(red), WIDTH * HEIGHT // 100, "no box")
@@ -87,11 +103,27 @@ class Embedding(unittest.TestCase):
         """Where the box is not, the host's picture is sward's own."""
         camera = self.dir / "camera.json"
         camera.write_text(json.dumps(banked_camera()))
-        run(BIN / "sward", "render", self.scene, "--camera-matrices", camera, "--size", f"{WIDTH}x{HEIGHT}", "-o", self.dir / "own.png",
-            env=sward_cli.environment())
+        run(
+            BIN / "sward",
+            "render",
+            self.scene,
+            "--camera-matrices",
+            camera,
+            "--size",
+            f"{WIDTH}x{HEIGHT}",
+            "-o",
+            self.dir / "own.png",
+            env=sward_cli.environment(),
+        )
         rgb = Image.open(self.dir / "own.png").convert("RGB").tobytes()
-        differing = [i for i in range(WIDTH * HEIGHT) if pixels[i] != rgb[3 * i:3 * i + 3]]
-        outside = [i for i in differing if not (box[0] - 1 <= i % WIDTH <= box[2] + 1 and box[1] - 1 <= i // WIDTH <= box[3] + 1)]
+        differing = [i for i in range(WIDTH * HEIGHT) if pixels[i] != rgb[3 * i : 3 * i + 3]]
+        outside = [
+            i
+            for i in differing
+            if not (
+                box[0] - 1 <= i % WIDTH <= box[2] + 1 and box[1] - 1 <= i // WIDTH <= box[3] + 1
+            )
+        ]
         self.assertGreater(len(differing), 100)
         self.assertEqual(outside, [])
         # Grass before the box: its own pixels are fewer than those that it changed.
@@ -102,7 +134,10 @@ class Embedding(unittest.TestCase):
             text = (self.prefix / "include/sward" / name).read_text()
             for line in text.splitlines():
                 if line.startswith("#include"):
-                    self.assertRegex(line, r'^#include (<[a-z_]+>|<glm/(vec|mat)[234x]*\.hpp>|"sward/[a-z]+\.h")$')
+                    self.assertRegex(
+                        line,
+                        r'^#include (<[a-z_]+>|<glm/(vec|mat)[234x]*\.hpp>|"sward/[a-z]+\.h")$',
+                    )
         self.assertEqual(sorted(p.name for p in (self.prefix / "include/sward").iterdir()), PUBLIC)
         picture = self.build("package", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         pixels, box = self.check(picture)
@@ -111,11 +146,16 @@ class Embedding(unittest.TestCase):
     def test_pkg_config(self):
         places = [p for p in self.prefix.rglob("pkgconfig") if p.is_dir()]
         self.assertEqual(len(places), 1)
-        self.check(self.build("pkgconfig", "-DSWARD_BY_PKG_CONFIG=ON", PKG_CONFIG_PATH=str(places[0])))
+        self.check(
+            self.build("pkgconfig", "-DSWARD_BY_PKG_CONFIG=ON", PKG_CONFIG_PATH=str(places[0]))
+        )
 
     def test_source_tree(self):
-        # Unoptimised: what is asked is that it builds and draws, and optimising takes most of the time.
-        self.check(self.build("source", f"-DSWARD_SOURCE={SOURCE}", "-DCMAKE_CXX_FLAGS_RELEASE=-O0"))
+        # Unoptimised: what is asked is that it builds and draws, and optimising takes most of the
+        # time.
+        self.check(
+            self.build("source", f"-DSWARD_SOURCE={SOURCE}", "-DCMAKE_CXX_FLAGS_RELEASE=-O0")
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Faults from outside: no GPU, broken shaders, signals, kill -9, two writers."""
+
 import os
 import resource
 import shutil
@@ -10,7 +11,9 @@ import sward_cli
 from sward_cli import CliCase, SIZE, environment, temporaries
 
 # A preset whose bake lasts long enough to be hit.
-LONG_PRESET = sward_cli.TINY_PRESET.replace("size = 64", "size = 512").replace("variants = 1", "variants = 8")
+LONG_PRESET = sward_cli.TINY_PRESET.replace("size = 64", "size = 512").replace(
+    "variants = 1", "variants = 8"
+)
 
 
 class NoGpu(CliCase):
@@ -19,8 +22,17 @@ class NoGpu(CliCase):
         self.scene()
 
     def refuse_gpu(self, pieces, **changes):
-        self.refuse(6, pieces, "render", "scene.toml", "-o", "out.png", "--size", SIZE,
-                    env=environment(**changes))
+        self.refuse(
+            6,
+            pieces,
+            "render",
+            "scene.toml",
+            "-o",
+            "out.png",
+            "--size",
+            SIZE,
+            env=environment(**changes),
+        )
 
     def test_no_egl(self):
         self.refuse_gpu(["EGL"], __EGL_VENDOR_LIBRARY_DIRS="/nonexistent")
@@ -30,7 +42,9 @@ class NoGpu(CliCase):
 
     def test_no_display(self):
         self.refuse(6, ["display", "sward render"], "view", "scene.toml")
-        self.refuse(6, ["display", "sward render"], "view", "scene.toml", env=environment(DISPLAY=":9876"))
+        self.refuse(
+            6, ["display", "sward render"], "view", "scene.toml", env=environment(DISPLAY=":9876")
+        )
 
     def test_broken_shader(self):
         shaders = self.dir / "shaders"
@@ -67,8 +81,18 @@ class Signals(CliCase):
         for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             with self.subTest(signal=number.name):
                 before = sward_cli.snapshot(self.dir)
-                child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", "640x360",
-                                        "--warm", "10000", cwd=self.dir)
+                child = sward_cli.start(
+                    "sward",
+                    "render",
+                    "scene.toml",
+                    "-o",
+                    "out.png",
+                    "--size",
+                    "640x360",
+                    "--warm",
+                    "10000",
+                    cwd=self.dir,
+                )
                 pause = threading.Event()
                 pause.wait(0.8)  # into the frames, or before them: both must end well
                 self.assertIsNone(child.poll())
@@ -90,8 +114,17 @@ class Signals(CliCase):
         text = sward_cli.SCENE.replace('"set"', '"long.toml"')
         (self.dir / "scene.toml").write_text(text)
         cache = self.dir / "cache"
-        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE,
-                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        child = sward_cli.start(
+            "sward",
+            "render",
+            "scene.toml",
+            "-o",
+            "out.png",
+            "--size",
+            SIZE,
+            cwd=self.dir,
+            env=environment(XDG_CACHE_HOME=cache),
+        )
         self.assertTrue(sward_cli.interrupt(child, signal.SIGTERM, lambda: temporaries(cache)))
         self.assertEqual(self.end_of(child), 143)
         pause = threading.Event()
@@ -106,8 +139,18 @@ class Signals(CliCase):
         """The texgen that sward runs dies: one line, exit 1, nothing left."""
         (self.dir / "scene.toml").write_text(sward_cli.SCENE.replace('"set"', '"long.toml"'))
         cache = self.dir / "cache"
-        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE, "-q",
-                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        child = sward_cli.start(
+            "sward",
+            "render",
+            "scene.toml",
+            "-o",
+            "out.png",
+            "--size",
+            SIZE,
+            "-q",
+            cwd=self.dir,
+            env=environment(XDG_CACHE_HOME=cache),
+        )
         pause = threading.Event()
         for _ in range(3000):
             if temporaries(cache) or child.poll() is not None:
@@ -129,8 +172,17 @@ class Signals(CliCase):
         (self.dir / "empty.toml").write_text("# nothing = here\n\n[patch]\n")
         (self.dir / "scene.toml").write_text(sward_cli.SCENE.replace('"set"', '"empty.toml"'))
         cache = self.dir / "cache"
-        child = sward_cli.start("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE,
-                                cwd=self.dir, env=environment(XDG_CACHE_HOME=cache))
+        child = sward_cli.start(
+            "sward",
+            "render",
+            "scene.toml",
+            "-o",
+            "out.png",
+            "--size",
+            SIZE,
+            cwd=self.dir,
+            env=environment(XDG_CACHE_HOME=cache),
+        )
         self.assertTrue(sward_cli.interrupt(child, signal.SIGTERM, lambda: temporaries(cache)))
         _, err = child.communicate(timeout=300)
         self.assertIn("warning: ", err.decode())
@@ -149,8 +201,12 @@ class Signals(CliCase):
     def test_two_writers(self):
         """Two texgens with one output: one complete winner, and nothing beside it."""
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
-        children = [sward_cli.start("texgen", "tiny.toml", "-o", "made", "--no-preview", "--no-volume",
-                                    cwd=self.dir) for _ in range(2)]
+        children = [
+            sward_cli.start(
+                "texgen", "tiny.toml", "-o", "made", "--no-preview", "--no-volume", cwd=self.dir
+            )
+            for _ in range(2)
+        ]
         self.assertEqual([self.end_of(child) for child in children], [0, 0])
         self.assertEqual(temporaries(self.dir), {})
         text = sward_cli.SCENE.replace('"set"', '"made"')
@@ -159,6 +215,7 @@ class Signals(CliCase):
 
     def test_ignored_interrupt(self):
         """Under nohup a hang-up is no reason to end."""
+
         def ignore():
             signal.signal(signal.SIGHUP, signal.SIG_IGN)
 
@@ -167,7 +224,8 @@ class Signals(CliCase):
 
 
 class Room(CliCase):
-    """Little memory, no threads, few file handles: the contract's one line and code, or the work is done."""
+    """Little memory, no threads, few file handles: the contract's one line and code, or the work is
+    done."""
 
     def setUp(self):
         super().setUp()
@@ -176,15 +234,33 @@ class Room(CliCase):
 
     @staticmethod
     def commands():
-        bake = ("texgen", "tiny.toml", "-o", "made/set", "-q", "--no-preview", "--no-volume", "--threads", "2")
-        return [("texgen", "--version"), ("sward", "info", "scene.toml"), ("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE), bake]
+        bake = (
+            "texgen",
+            "tiny.toml",
+            "-o",
+            "made/set",
+            "-q",
+            "--no-preview",
+            "--no-volume",
+            "--threads",
+            "2",
+        )
+        return [
+            ("texgen", "--version"),
+            ("sward", "info", "scene.toml"),
+            ("sward", "render", "scene.toml", "-o", "out.png", "--size", SIZE),
+            bake,
+        ]
 
     def hold(self, codes, limits, prefix=(), env=None):
-        """Every command ends with one of the codes, in one line unless it is 0, and leaves nothing then."""
+        """Every command ends with one of the codes, in one line unless it is 0, and leaves nothing
+        then."""
         for command in self.commands():
             with self.subTest(command=command[:2]):
                 before = sward_cli.snapshot(self.dir)
-                result = sward_cli.run(*command, cwd=self.dir, limits=limits, prefix=prefix, env=env)
+                result = sward_cli.run(
+                    *command, cwd=self.dir, limits=limits, prefix=prefix, env=env
+                )
                 if result.code == 127 and "shared libraries" in result.err:
                     continue  # not begun: the system's loader speaks
                 self.assertIn(result.code, (0, *codes), result.err)
@@ -200,13 +276,27 @@ class Room(CliCase):
         env = self.own_shaders()
         for most in (400_000, 600_000):
             with self.subTest(kib=most):
-                self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 10, most << 10)), env=env)
+                self.hold(
+                    {1, 4},
+                    lambda: resource.setrlimit(resource.RLIMIT_AS, (most << 10, most << 10)),
+                    env=env,
+                )
 
     def test_no_threads(self):
         user = ()
         if os.geteuid() == 0:  # the limit counts for users only
             keep = "+dac_override"
-            user = ("setpriv", "--reuid", "64123", "--inh-caps", keep, "--ambient-caps", keep, "--bounding-set", "-all," + keep)
+            user = (
+                "setpriv",
+                "--reuid",
+                "64123",
+                "--inh-caps",
+                keep,
+                "--ambient-caps",
+                keep,
+                "--bounding-set",
+                "-all," + keep,
+            )
         self.hold({1, 4}, lambda: resource.setrlimit(resource.RLIMIT_NPROC, (1, 1)), prefix=user)
 
     def test_few_handles(self):

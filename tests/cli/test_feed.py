@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Another program's aircraft in the viewer: packets in, the pose and the note, the answer, sockets that are open and those that are not."""
+"""Another program's aircraft in the viewer: packets in, the pose and the note, the answer, sockets
+that are open and those that are not."""
+
 import math
 import re
 import signal
@@ -48,7 +50,11 @@ def udp_sockets(process):
             fields = line.split()
             if fields[9] in inodes:
                 address, port = fields[1].split(":")
-                quads = ".".join(str(b) for b in reversed(bytes.fromhex(address))) if table == "udp" else address
+                quads = (
+                    ".".join(str(b) for b in reversed(bytes.fromhex(address)))
+                    if table == "udp"
+                    else address
+                )
                 found.append(f"{quads}:{int(port, 16)}")
     return found
 
@@ -61,7 +67,14 @@ class Feed(CliCase):
         super().setUp()
         self.scene()
         # 640 m of UTM zone 32 at 50 degrees north, rising 5 % to the east.
-        geotiff(self.dir / "height.tif", 65, 65, lambda i, j: 100 + 0.5 * i, epsg=32632, affine=(10, 0, 500000, 0, -10, 5540000))
+        geotiff(
+            self.dir / "height.tif",
+            65,
+            65,
+            lambda i, j: 100 + 0.5 * i,
+            epsg=32632,
+            affine=(10, 0, 500000, 0, -10, 5540000),
+        )
         screen = self.dir / "screen"
         screen.mkdir()
         self.display = test_view.Display(screen)
@@ -70,8 +83,28 @@ class Feed(CliCase):
 
     def view(self, *arguments):
         child = subprocess.Popen(
-            [str(sward_cli.BIN / "sward"), "view", "scene.toml", "--size", f"{WIDTH}x{HEIGHT}", "--samples", "1", "--tiers", "blades", "--blades-distance", "1", "--density", "0", *arguments],
-            cwd=self.dir, env=self.env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            [
+                str(sward_cli.BIN / "sward"),
+                "view",
+                "scene.toml",
+                "--size",
+                f"{WIDTH}x{HEIGHT}",
+                "--samples",
+                "1",
+                "--tiers",
+                "blades",
+                "--blades-distance",
+                "1",
+                "--density",
+                "0",
+                *arguments,
+            ],
+            cwd=self.dir,
+            env=self.env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.addCleanup(child.communicate)
         self.addCleanup(child.kill)
         return child
@@ -83,8 +116,11 @@ class Feed(CliCase):
         return [float(n) for n in re.search(r"origin +([-\d.]+), ([-\d.]+)", result.out).groups()]
 
     def check_answer(self, answer, latitude, longitude):
-        """An answer to a packet from 100 m north of the origin; returns the ground's height that it tells."""
-        self.assertEqual((len(answer), answer[:4], struct.unpack(">I", answer[4:8])[0]), (96, b"SWGD", 1))
+        """An answer to a packet from 100 m north of the origin; returns the ground's height that it
+        tells."""
+        self.assertEqual(
+            (len(answer), answer[:4], struct.unpack(">I", answer[4:8])[0]), (96, b"SWGD", 1)
+        )
         time_s, lon, lat, x, z, ground = struct.unpack(">6d", answer[16:64])
         north, east, down, wind_north, wind_east, _ = struct.unpack(">6f", answer[64:88])
         surface, fdm_time = struct.unpack(">II", answer[88:96])
@@ -104,7 +140,9 @@ class Feed(CliCase):
     def check_horizon(self):
         """The right wing is down: the horizon stands higher on the right, so there is less sky."""
         pixels = self.display.pixels()
-        columns = [[pixels[row * test_view.WIDTH + i] for row in range(HEIGHT)] for i in (10, WIDTH - 10)]
+        columns = [
+            [pixels[row * test_view.WIDTH + i] for row in range(HEIGHT)] for i in (10, WIDTH - 10)
+        ]
         sky = [sum((p & 255) > (p >> 8 & 255) for p in column) for column in columns]
         self.assertGreater(sky[0], sky[1] + HEIGHT // 5, sky)
 
@@ -114,16 +152,23 @@ class Feed(CliCase):
         self.addCleanup(answers.close)
         answers.bind(("127.0.0.1", 0))
         answers.settimeout(600)
-        child = self.view("--native-fdm", "udp:0", "--udp-out", f"udp:127.0.0.1:{answers.getsockname()[1]}")
+        child = self.view(
+            "--native-fdm", "udp:0", "--udp-out", f"udp:127.0.0.1:{answers.getsockname()[1]}"
+        )
         said, printed = [], []
         for lines, stream in ((said, child.stderr), (printed, child.stdout)):
-            threading.Thread(target=lambda lines=lines, stream=stream: lines.extend(iter(stream.readline, "")), daemon=True).start()
+            threading.Thread(
+                target=lambda lines=lines, stream=stream: lines.extend(iter(stream.readline, "")),
+                daemon=True,
+            ).start()
         heard = lambda text: self.wait_for(lambda: any(text in line for line in said), child)
         heard("listening on udp:127.0.0.1:")
         port = int(re.search(r"127\.0\.0\.1:(\d+)", said[0]).group(1))
         sockets = udp_sockets(child.pid)
         self.assertIn(f"127.0.0.1:{port}", sockets)
-        self.assertTrue(len(sockets) == 2 and all(s.startswith("127.0.0.1:") for s in sockets), sockets)
+        self.assertTrue(
+            len(sockets) == 2 and all(s.startswith("127.0.0.1:") for s in sockets), sockets
+        )
 
         stop = threading.Event()
 
@@ -134,9 +179,14 @@ class Feed(CliCase):
                 count = 0
                 while not stop.wait(0.02):
                     count += 1
-                    sender.sendto(net_fdm(latitude + 100 / 111_000, longitude, 180, 30, -10, 45, count), ("127.0.0.1", port))
+                    sender.sendto(
+                        net_fdm(latitude + 100 / 111_000, longitude, 180, 30, -10, 45, count),
+                        ("127.0.0.1", port),
+                    )
                     sender.sendto(bytes(count % 500), ("127.0.0.1", port))
-                    stranger.sendto(net_fdm(latitude, longitude, 500, 0, 0, 0, count), ("127.0.0.1", port))
+                    stranger.sendto(
+                        net_fdm(latitude, longitude, 500, 0, 0, 0, count), ("127.0.0.1", port)
+                    )
 
         thread = threading.Thread(target=send)
         thread.start()
@@ -151,7 +201,11 @@ class Feed(CliCase):
         ground = self.check_answer(answer, latitude + 100 / 111_000, longitude)
 
         window = self.display.windows()[-1]
-        self.display.tap(window, "i")  # in so narrow a window the line wraps over the panel, further the more packets it tells of
+        self.display.tap(
+            window,
+            "i",
+            # in so narrow a window the line wraps over the panel, further the more packets it tells of
+        )
         self.wait_for(self.display.has_panel, child)
         self.display.tap(window, "t")
         self.wait_for(lambda: not self.display.has_panel(), child)
@@ -177,17 +231,54 @@ class Feed(CliCase):
         self.assertEqual(child.wait(timeout=300), 143)
 
     def test_refusals(self):
-        for option, text in (("--native-fdm", "5550"), ("--native-fdm", "udp:65536"), ("--native-fdm", "tcp:5550"), ("--native-fdm", ""),
-                             ("--udp-out", "udp:5560"), ("--udp-out", "udp:somewhere:0"), ("--udp-out", "udp:some where:1")):
+        for option, text in (
+            ("--native-fdm", "5550"),
+            ("--native-fdm", "udp:65536"),
+            ("--native-fdm", "tcp:5550"),
+            ("--native-fdm", ""),
+            ("--udp-out", "udp:5560"),
+            ("--udp-out", "udp:somewhere:0"),
+            ("--udp-out", "udp:some where:1"),
+        ):
             with self.subTest(option=option, text=text):
-                self.refuse(2, [option, f'found "{text}"', "expected udp:"], "view", "scene.toml", option, text)
+                self.refuse(
+                    2,
+                    [option, f'found "{text}"', "expected udp:"],
+                    "view",
+                    "scene.toml",
+                    option,
+                    text,
+                )
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other:
             other.bind(("127.0.0.1", 0))
             port = other.getsockname()[1]
-            self.refuse(5, ["--native-fdm", f"127.0.0.1:{port}", "found a port in use"], "view", "scene.toml", "--native-fdm", f"udp:{port}")
-        self.refuse(5, ["--native-fdm", "192.0.2.1:5550"], "view", "scene.toml", "--native-fdm", "udp:192.0.2.1:5550")
+            self.refuse(
+                5,
+                ["--native-fdm", f"127.0.0.1:{port}", "found a port in use"],
+                "view",
+                "scene.toml",
+                "--native-fdm",
+                f"udp:{port}",
+            )
+        self.refuse(
+            5,
+            ["--native-fdm", "192.0.2.1:5550"],
+            "view",
+            "scene.toml",
+            "--native-fdm",
+            "udp:192.0.2.1:5550",
+        )
         # The scene of the other tests lies nowhere on Earth.
-        self.refuse(2, ["--native-fdm", "place on Earth"], "view", "scene.toml", "-q", "--native-fdm", "udp:0", env=self.env)
+        self.refuse(
+            2,
+            ["--native-fdm", "place on Earth"],
+            "view",
+            "scene.toml",
+            "-q",
+            "--native-fdm",
+            "udp:0",
+            env=self.env,
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The command line: what is refused, with which words, and what works without a GPU."""
+
 import shutil
 
 import sward_cli
@@ -27,11 +28,25 @@ class Options(CliCase):
                 self.refuse_render(2, [option, '"-1"'], option, "-1")
         for option in ("--frame-index", "--warm", "--force-tier", "--samples"):
             with self.subTest(option=option):
-                self.refuse_render(2, [option, "9223372036854775808"], option, "9223372036854775808")
+                self.refuse_render(
+                    2, [option, "9223372036854775808"], option, "9223372036854775808"
+                )
 
     def test_size(self):
         self.scene()
-        for text in ("64px", "-1", "0x10", "10x0", "64", "64x", "x64", "64x36x1", "1.5x2", "", "nanxnan"):
+        for text in (
+            "64px",
+            "-1",
+            "0x10",
+            "10x0",
+            "64",
+            "64x",
+            "x64",
+            "64x36x1",
+            "1.5x2",
+            "",
+            "nanxnan",
+        ):
             with self.subTest(text=text):
                 self.refuse_render(2, ["--size", "expected"], "--size", text)
         for text in ("16385x1", "1x16385", "1000000x1000000", "9223372036854775808x1"):
@@ -40,10 +55,23 @@ class Options(CliCase):
 
     def test_choices_and_poses(self):
         self.scene()
-        cases = [("--tiers", "most"), ("--handover", "soft"), ("--cull", "frustum,depth"), ("--cull", "occlusion,occlusion"), ("--samples", "3"), ("--far", "shells"), ("--camera", "raod"),
-                 ("--camera", "1,2,3"), ("--camera", ""), ("--path", "rol"),
-                 ("--lod-eye", "1,2"), ("--frames", "5:1"), ("--frames", "1"), ("--frames", "-1:2"),
-                 ("--fixed-timestep", "0")]
+        cases = [
+            ("--tiers", "most"),
+            ("--handover", "soft"),
+            ("--cull", "frustum,depth"),
+            ("--cull", "occlusion,occlusion"),
+            ("--samples", "3"),
+            ("--far", "shells"),
+            ("--camera", "raod"),
+            ("--camera", "1,2,3"),
+            ("--camera", ""),
+            ("--path", "rol"),
+            ("--lod-eye", "1,2"),
+            ("--frames", "5:1"),
+            ("--frames", "1"),
+            ("--frames", "-1:2"),
+            ("--fixed-timestep", "0"),
+        ]
         for option, text in cases:
             with self.subTest(option=option, text=text):
                 self.refuse_render(2, [option, "found", text, "expected"], option, text)
@@ -62,9 +90,17 @@ class Options(CliCase):
         flat = [0] * 14 + [-1, 0]
         wants("{", "no JSON")
         wants('{"clip_from_view": []}', "view_from_world", "nothing")
-        wants(f'{{"view_from_world": {one}, "clip_from_view": "x"}}', "clip_from_view", "16 numbers")
-        wants(f'{{"view_from_world": {one}, "clip_from_view": {flat}}}', "clip_from_view", "without width")
-        wants(f'{{"view_from_world": {[2] + one[1:]}, "clip_from_view": {flat}}}', "view_from_world")
+        wants(
+            f'{{"view_from_world": {one}, "clip_from_view": "x"}}', "clip_from_view", "16 numbers"
+        )
+        wants(
+            f'{{"view_from_world": {one}, "clip_from_view": {flat}}}',
+            "clip_from_view",
+            "without width",
+        )
+        wants(
+            f'{{"view_from_world": {[2] + one[1:]}, "clip_from_view": {flat}}}', "view_from_world"
+        )
         self.refuse_render(5, ["nowhere.json"], "--camera-matrices", "nowhere.json")
 
     def test_usage(self):
@@ -83,13 +119,23 @@ class Options(CliCase):
 
     def test_a_wrong_option_is_blamed(self):
         self.scene()
-        for words in (["render", "scene.toml", "-n", "8", "-o", "out.png"], ["-n", "8", "render", "scene.toml", "-o", "out.png"],
-                      ["render", "-n", "8", "scene.toml"], ["view", "-n", "8"], ["wind", "scene.toml", "-n", "8"], ["bench", "-n", "8"],
-                      ["info", "-n", "8"]):
+        for words in (
+            ["render", "scene.toml", "-n", "8", "-o", "out.png"],
+            ["-n", "8", "render", "scene.toml", "-o", "out.png"],
+            ["render", "-n", "8", "scene.toml"],
+            ["view", "-n", "8"],
+            ["wind", "scene.toml", "-n", "8"],
+            ["bench", "-n", "8"],
+            ["info", "-n", "8"],
+        ):
             with self.subTest(words=words):
                 self.refuse(2, ["error: -n: found an unknown option", "--help"], *words)
-        self.refuse_render(2, ["error: --sise: found an unknown option", "perhaps --size"], "--sise", "64x36")
-        self.refuse(2, ["error: --output: found \"--size\""], "render", "scene.toml", "-o", "--size", "64x36")
+        self.refuse_render(
+            2, ["error: --sise: found an unknown option", "perhaps --size"], "--sise", "64x36"
+        )
+        self.refuse(
+            2, ['error: --output: found "--size"'], "render", "scene.toml", "-o", "--size", "64x36"
+        )
 
     def test_aovs(self):
         self.scene()
@@ -100,9 +146,14 @@ class Options(CliCase):
 
     def test_help_and_info_without_gpu(self):
         env = environment(**NO_GPU)
-        for program, arguments in (("sward", ["--help"]), ("sward", ["--version"]),
-                                   ("sward", ["render", "--help"]), ("sward", ["view", "--help"]),
-                                   ("texgen", ["--help"]), ("texgen", ["--version"])):
+        for program, arguments in (
+            ("sward", ["--help"]),
+            ("sward", ["--version"]),
+            ("sward", ["render", "--help"]),
+            ("sward", ["view", "--help"]),
+            ("texgen", ["--help"]),
+            ("texgen", ["--version"]),
+        ):
             with self.subTest(program=program, arguments=arguments):
                 result = sward_cli.run(program, *arguments, env=env)
                 self.assert_done(result)
@@ -116,7 +167,8 @@ class Options(CliCase):
         self.assertRegex(result.out, r"opengl +4\.")
 
     def test_locale(self):
-        """A comma as decimal point in the environment changes neither what is read nor what is refused."""
+        """A comma as decimal point in the environment changes neither what is read nor what is
+        refused."""
         self.scene()
         env = environment(LC_ALL="de_DE.UTF-8", LC_NUMERIC="de_DE.UTF-8")
         self.refuse_render(2, ["--time", "1,5"], "--time", "1,5", env=env)
@@ -133,7 +185,9 @@ class Options(CliCase):
                     if option == "--seed" and text == "9223372036854775808":
                         continue  # a seed may be any 64 bits
                     shutil.rmtree(self.dir / "set", ignore_errors=True)
-                    result = sward_cli.run("texgen", "tiny.toml", "-o", "set", option, text, cwd=self.dir)
+                    result = sward_cli.run(
+                        "texgen", "tiny.toml", "-o", "set", option, text, cwd=self.dir
+                    )
                     self.assertIn(result.code, (2, 4), result.err)
                     self.assertEqual(len(result.err.splitlines()), 1, result.err)
                     self.assertIn(option, result.err)

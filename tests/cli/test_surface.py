@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Scenes on a mesh and objects as a user meets them: what is refused, what is kept, what may be left out."""
+"""Scenes on a mesh and objects as a user meets them: what is refused, what is kept, what may be
+left out."""
+
 import json
 import struct
 
@@ -28,23 +30,56 @@ def glb(path, positions, triangles):
     """A mesh without normals as glTF binary."""
     corners = b"".join(struct.pack("<3f", *p) for p in positions)
     indices = b"".join(struct.pack("<3I", *t) for t in triangles)
-    text = json.dumps({
-        "asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "scene": 0, "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-        "accessors": [{"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"},
-                      {"bufferView": 1, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}],
-        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": len(corners)},
-                        {"buffer": 0, "byteOffset": len(corners), "byteLength": len(indices)}],
-        "buffers": [{"byteLength": len(corners) + len(indices)}]}).encode()
+    text = json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": [0]}],
+            "scene": 0,
+            "nodes": [{"mesh": 0}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+            "accessors": [
+                {"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"},
+                {
+                    "bufferView": 1,
+                    "componentType": 5125,
+                    "count": 3 * len(triangles),
+                    "type": "SCALAR",
+                },
+            ],
+            "bufferViews": [
+                {"buffer": 0, "byteOffset": 0, "byteLength": len(corners)},
+                {"buffer": 0, "byteOffset": len(corners), "byteLength": len(indices)},
+            ],
+            "buffers": [{"byteLength": len(corners) + len(indices)}],
+        }
+    ).encode()
     text += b" " * (-len(text) % 4)
     body = corners + indices
-    path.write_bytes(struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body)) + struct.pack("<2I", len(text), 0x4E4F534A) + text +
-                     struct.pack("<2I", len(body), 0x004E4942) + body)
+    path.write_bytes(
+        struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body))
+        + struct.pack("<2I", len(text), 0x4E4F534A)
+        + text
+        + struct.pack("<2I", len(body), 0x004E4942)
+        + body
+    )
 
 
 SHEET = ([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)], [(0, 1, 2), (0, 2, 3)])
-BOX = ([(x, y, z) for z in (-.3, .3) for y in (-.3, .3) for x in (-.3, .3)],
-       [t for a, b, c, d in ((0, 4, 6, 2), (1, 3, 7, 5), (0, 1, 5, 4), (2, 6, 7, 3), (0, 2, 3, 1), (4, 5, 7, 6)) for t in ((a, b, c), (a, c, d))])
+BOX = (
+    [(x, y, z) for z in (-0.3, 0.3) for y in (-0.3, 0.3) for x in (-0.3, 0.3)],
+    [
+        t
+        for a, b, c, d in (
+            (0, 4, 6, 2),
+            (1, 3, 7, 5),
+            (0, 1, 5, 4),
+            (2, 6, 7, 3),
+            (0, 2, 3, 1),
+            (4, 5, 7, 6),
+        )
+        for t in ((a, b, c), (a, c, d))
+    ],
+)
 
 
 class Surface(CliCase):
@@ -73,20 +108,29 @@ class Surface(CliCase):
         nan = float("nan")
         flat = [(0, 0, 0), (1, 0, 0), (2, 0, 0)]
         for positions, triangles, pieces in (
-                (flat, [(0, 1, 2)], ["m.glb", "triangle with an area"]),
-                ([(0, 0, 0), (1, 0, 0), (nan, 0, 1)], [(0, 1, 2)], ["m.glb", "finite"]),
-                (SHEET[0], [(0, 1, 9)], ["m.glb", "9"]),
-                (SHEET[0], [], ["m.glb"])):
+            (flat, [(0, 1, 2)], ["m.glb", "triangle with an area"]),
+            ([(0, 0, 0), (1, 0, 0), (nan, 0, 1)], [(0, 1, 2)], ["m.glb", "finite"]),
+            (SHEET[0], [(0, 1, 9)], ["m.glb", "9"]),
+            (SHEET[0], [], ["m.glb"]),
+        ):
             glb(self.dir / "m.glb", positions, triangles)
             self.refuse_scene(3, pieces)
 
     def test_too_many_blades(self):
         glb(self.dir / "m.glb", [(20 * x, y, 20 * z) for x, y, z in SHEET[0]], SHEET[1])
-        self.refuse_scene(4, ["m.glb", "1440000000 blades", "at most 10000000"], SCENE.replace("= 200", "= 900000"))
+        self.refuse_scene(
+            4,
+            ["m.glb", "1440000000 blades", "at most 10000000"],
+            SCENE.replace("= 200", "= 900000"),
+        )
 
     def test_too_steep(self):
         glb(self.dir / "m.glb", [(x, z, 0) for x, _, z in SHEET[0]], SHEET[1])
-        self.refuse_scene(3, ["m.glb", "no area that leans at most 10 degrees"], SCENE.replace("= 200", "= 200\nslope_deg = 10"))
+        self.refuse_scene(
+            3,
+            ["m.glb", "no area that leans at most 10 degrees"],
+            SCENE.replace("= 200", "= 200\nslope_deg = 10"),
+        )
 
     def test_spheres_are_packed_once(self):
         self.scene(SCENE + OBJECT)
@@ -119,7 +163,9 @@ class Surface(CliCase):
         self.assert_done(self.render("-o", "a.png", "--camera", "near", env=self.env))
 
     def test_wind_knows_no_elevation(self):
-        self.assert_done(self.sward("wind", "scene.toml", "--time", "0.1", "-o", "w.exr", env=self.env))
+        self.assert_done(
+            self.sward("wind", "scene.toml", "--time", "0.1", "-o", "w.exr", env=self.env)
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""texgen as a tool: options, reports, inspect and verify, the same bytes at any number of threads."""
+"""texgen as a tool: options, reports, inspect and verify, the same bytes at any number of
+threads."""
+
 import hashlib
 import json
 import re
@@ -33,27 +35,56 @@ class TexgenCase(CliCase):
 
 class Options(TexgenCase):
     def test_numbers(self):
-        """A value out of range is refused with the option, what was found and the range, before any work."""
-        ranges = {"--size": ("32", "2048"), "--layers": ("2", "256"), "--slices": ("2", "256"),
-                  "--variants": ("1", "16"), "--levels": ("1", "4"), "--seed": ("0", "9007199254740991"),
-                  "--threads": ("0", "1024")}
-        values = {"--size": ("0", "16385", "-1"), "--layers": ("0", "2049"), "--slices": ("0", "2049"),
-                  "--variants": ("0", "17"), "--levels": ("0", "5"), "--seed": ("-1", "9223372036854775807"),
-                  "--threads": ("-1", "1025")}
+        """A value out of range is refused with the option, what was found and the range, before any
+        work."""
+        ranges = {
+            "--size": ("32", "2048"),
+            "--layers": ("2", "256"),
+            "--slices": ("2", "256"),
+            "--variants": ("1", "16"),
+            "--levels": ("1", "4"),
+            "--seed": ("0", "9007199254740991"),
+            "--threads": ("0", "1024"),
+        }
+        values = {
+            "--size": ("0", "16385", "-1"),
+            "--layers": ("0", "2049"),
+            "--slices": ("0", "2049"),
+            "--variants": ("0", "17"),
+            "--levels": ("0", "5"),
+            "--seed": ("-1", "9223372036854775807"),
+            "--threads": ("-1", "1025"),
+        }
         for option, (low, high) in ranges.items():
             for value in values[option]:
                 with self.subTest(option=option, value=value):
-                    self.refuse_texgen(2, [option, value, low, high], "tiny.toml", "-o", "set", f"{option}={value}")
+                    self.refuse_texgen(
+                        2, [option, value, low, high], "tiny.toml", "-o", "set", f"{option}={value}"
+                    )
             for value in ("", "64px", "nan", "1e3", "0x40", "99999999999999999999", "1,5"):
                 with self.subTest(option=option, value=value):
-                    self.refuse_texgen(2, [option, "expected"], "tiny.toml", "-o", "set", f"{option}={value}")
-        self.refuse_texgen(2, ["--size 100", "power of two"], "tiny.toml", "-o", "set", "--size", "100")
+                    self.refuse_texgen(
+                        2, [option, "expected"], "tiny.toml", "-o", "set", f"{option}={value}"
+                    )
+        self.refuse_texgen(
+            2, ["--size 100", "power of two"], "tiny.toml", "-o", "set", "--size", "100"
+        )
 
     def test_choices(self):
         for value in ("", "zip", "zstd:", "zstd:0", "zstd:20", "zstd:x", "bc:3", "BC"):
             with self.subTest(value=value):
-                self.refuse_texgen(2, ["--compression", "zstd:19"], "tiny.toml", "-o", "set", "--compression", value)
-        self.refuse_texgen(2, ["--export", "jpg", "png or exr"], "tiny.toml", "-o", "set", "--export", "jpg")
+                self.refuse_texgen(
+                    2,
+                    ["--compression", "zstd:19"],
+                    "tiny.toml",
+                    "-o",
+                    "set",
+                    "--compression",
+                    value,
+                )
+        self.refuse_texgen(
+            2, ["--export", "jpg", "png or exr"], "tiny.toml", "-o", "set", "--export", "jpg"
+        )
 
     def test_usage(self):
         self.refuse_texgen(2, ["PRESET"])
@@ -61,7 +92,9 @@ class Options(TexgenCase):
         self.refuse_texgen(2, ["--output"], "tiny.toml", "-o", "")
         self.refuse_texgen(2, ["--bogus"], "tiny.toml", "-o", "set", "--bogus")
         self.refuse_texgen(2, ["--quiet", "--verbose"], "tiny.toml", "-o", "set", "-q", "-v")
-        self.refuse_texgen(2, ["preview"], "tiny.toml", "-o", "set", "--no-preview", "--preview", "p.png")
+        self.refuse_texgen(
+            2, ["preview"], "tiny.toml", "-o", "set", "--no-preview", "--preview", "p.png"
+        )
         self.refuse_texgen(2, ["--seed"], "tiny.toml", "-o", "set", "--seed", "1", "--seed", "2")
         self.refuse_texgen(2, ["SET"], "inspect")
         self.refuse_texgen(2, ["SET"], "verify")
@@ -70,36 +103,86 @@ class Options(TexgenCase):
         self.refuse_texgen(5, ["no-such", "meadow"], "no-such", "-o", "set")
 
     def test_a_wrong_option_is_blamed(self):
-        """The option that there is not, and not the value after it or what is missing because of it."""
-        for words in (["tiny.toml", "-n", "8", "-o", "set"], ["-n", "8", "tiny.toml", "-o", "set"], ["tiny.toml", "-n", "8"],
-                      ["seam", "a.png", "-n", "8", "-o", "b.png"], ["seam", "a.png", "-n", "8"], ["import", "-n", "8", "a.vdb", "-o", "set"],
-                      ["export", "set", "-n", "8"], ["inspect", "set", "-n", "8"], ["verify", "-n", "8", "set"], ["import", "-n", "-up", "q"]):
+        """The option that there is not, and not the value after it or what is missing because of
+        it."""
+        for words in (
+            ["tiny.toml", "-n", "8", "-o", "set"],
+            ["-n", "8", "tiny.toml", "-o", "set"],
+            ["tiny.toml", "-n", "8"],
+            ["seam", "a.png", "-n", "8", "-o", "b.png"],
+            ["seam", "a.png", "-n", "8"],
+            ["import", "-n", "8", "a.vdb", "-o", "set"],
+            ["export", "set", "-n", "8"],
+            ["inspect", "set", "-n", "8"],
+            ["verify", "-n", "8", "set"],
+            ["import", "-n", "-up", "q"],
+        ):
             with self.subTest(words=words):
                 self.refuse_texgen(2, ["error: -n: found an unknown option", "--help"], *words)
-        self.refuse_texgen(2, ["error: --sise: found an unknown option", "perhaps --size"], "tiny.toml", "--sise", "64", "-o", "set")
-        self.refuse_texgen(2, ["error: --sizes=64: found", "perhaps --size"], "import", "a.vdb", "-o", "set", "--sizes=64")
-        self.refuse_texgen(2, ["error: --output: found \"--size\""], "tiny.toml", "-o", "--size", "64")
-        self.refuse_texgen(2, ["error: --size: found \"--levels\""], "tiny.toml", "-o", "set", "--size", "--levels", "2")
+        self.refuse_texgen(
+            2,
+            ["error: --sise: found an unknown option", "perhaps --size"],
+            "tiny.toml",
+            "--sise",
+            "64",
+            "-o",
+            "set",
+        )
+        self.refuse_texgen(
+            2,
+            ["error: --sizes=64: found", "perhaps --size"],
+            "import",
+            "a.vdb",
+            "-o",
+            "set",
+            "--sizes=64",
+        )
+        self.refuse_texgen(
+            2, ['error: --output: found "--size"'], "tiny.toml", "-o", "--size", "64"
+        )
+        self.refuse_texgen(
+            2,
+            ['error: --size: found "--levels"'],
+            "tiny.toml",
+            "-o",
+            "set",
+            "--size",
+            "--levels",
+            "2",
+        )
         self.refuse_texgen(2, ["--output", "2 times"], "tiny.toml", "-o", "set", "-o", "other")
 
     def test_preset_values(self):
         """Nonsense in the preset is refused with file, line, key, value and range."""
-        cases = [("density_per_m2 = 300.0", "density_per_m2 = -1.0", 3, ["density_per_m2", "-1"]),
-                 ("density_per_m2 = 300.0", "density_per_m2 = nan", 3, ["density_per_m2", "nan"]),
-                 ("density_per_m2 = 300.0", "density_per_m2 = inf", 3, ["density_per_m2", "inf"]),
-                 ("density_per_m2 = 300.0", "density_per_m2 = 1e9", 3, ["density_per_m2", "expected", "to 1000000 "]),
-                 ("side_m = 1.0\ndensity_per_m2 = 300.0", "side_m = 64.0\ndensity_per_m2 = 1000000.0", 4,
-                  ["density_per_m2", "4096000000", "200000"]),
-                 ("size = 64", "size = 0", 3, ["texture.size", "2048"]),
-                 ("size = 64", "size = 16385", 3, ["texture.size", "16385", "2048"]),
-                 ("layers = 4", "layers = 0", 3, ["texture.layers", "256"]),
-                 ("layers = 4", "layers = 2049", 3, ["texture.layers", "2049", "256"])]
+        cases = [
+            ("density_per_m2 = 300.0", "density_per_m2 = -1.0", 3, ["density_per_m2", "-1"]),
+            ("density_per_m2 = 300.0", "density_per_m2 = nan", 3, ["density_per_m2", "nan"]),
+            ("density_per_m2 = 300.0", "density_per_m2 = inf", 3, ["density_per_m2", "inf"]),
+            (
+                "density_per_m2 = 300.0",
+                "density_per_m2 = 1e9",
+                3,
+                ["density_per_m2", "expected", "to 1000000 "],
+            ),
+            (
+                "side_m = 1.0\ndensity_per_m2 = 300.0",
+                "side_m = 64.0\ndensity_per_m2 = 1000000.0",
+                4,
+                ["density_per_m2", "4096000000", "200000"],
+            ),
+            ("size = 64", "size = 0", 3, ["texture.size", "2048"]),
+            ("size = 64", "size = 16385", 3, ["texture.size", "16385", "2048"]),
+            ("layers = 4", "layers = 0", 3, ["texture.layers", "256"]),
+            ("layers = 4", "layers = 2049", 3, ["texture.layers", "2049", "256"]),
+        ]
         for old, new, code, pieces in cases:
             with self.subTest(new=new):
                 self.assertIn(old, sward_cli.TINY_PRESET)
                 (self.dir / "bad.toml").write_text(sward_cli.TINY_PRESET.replace(old, new))
                 self.refuse_texgen(code, ["bad.toml", *pieces], "bad.toml", "-o", "set")
-                self.refuse_texgen(code, ["bad.toml", *pieces], "bad.toml", "-o", "set", "--dry-run")
+                self.refuse_texgen(
+                    code, ["bad.toml", *pieces], "bad.toml", "-o", "set", "--dry-run"
+                )
 
     def test_help_names_every_option_of_the_manual(self):
         text = self.texgen("--help").out
@@ -111,8 +194,10 @@ class Options(TexgenCase):
 
 class Bytes(TexgenCase):
     def test_threads(self):
-        sets = [self.bake(f"set{i}", "--threads", threads, "--checknan")
-                for i, threads in enumerate(("1", "2", "8", "2"))]
+        sets = [
+            self.bake(f"set{i}", "--threads", threads, "--checknan")
+            for i, threads in enumerate(("1", "2", "8", "2"))
+        ]
         self.assertGreater(len(sets[0]), 7)
         for other in sets[1:]:
             self.assertEqual(sorted(sets[0]), sorted(other))
@@ -141,9 +226,14 @@ class Bytes(TexgenCase):
         self.assertLess(sizes["zstd"]["bytes"], sizes["none"]["bytes"])
         self.assertLess(sizes["zstd:12"]["bytes"], sizes["zstd"]["bytes"])
         self.assertEqual(reports["none"]["gpu_bytes"], reports["zstd"]["gpu_bytes"])
-        planes = {name: sum(level["gpu_bytes"] for level in report["levels"]) for name, report in reports.items()}
+        planes = {
+            name: sum(level["gpu_bytes"] for level in report["levels"])
+            for name, report in reports.items()
+        }
         share = planes["bc"] / planes["zstd"]
-        self.assertAlmostEqual(share, 0.75, delta=0.02) # mips under 4 x 4 texels take a whole block
+        self.assertAlmostEqual(
+            share, 0.75, delta=0.02
+        )  # mips under 4 x 4 texels take a whole block
 
 
 class Reports(TexgenCase):
@@ -157,7 +247,16 @@ class Reports(TexgenCase):
         del files["set.json"]
         self.assertEqual({name: file["bytes"] for name, file in report["files"].items()}, files)
         inspected = json.loads(self.texgen("inspect", "set", "--json").out)
-        for key in ("blades", "levels", "files", "gpu_bytes", "images", "canopy_m", "species", "seed"):
+        for key in (
+            "blades",
+            "levels",
+            "files",
+            "gpu_bytes",
+            "images",
+            "canopy_m",
+            "species",
+            "seed",
+        ):
             self.assertEqual(report[key], inspected[key], key)
 
     def test_dry_run(self):
@@ -169,16 +268,23 @@ class Reports(TexgenCase):
                 self.assert_done(result)
                 self.assertEqual(sward_cli.snapshot(self.dir), before)
                 told = json.loads(result.out)
-                made = json.loads(self.texgen("tiny.toml", "-o", "set", "-q", "--json", *FAST, *extra).out)
+                made = json.loads(
+                    self.texgen("tiny.toml", "-o", "set", "-q", "--json", *FAST, *extra).out
+                )
                 shutil.rmtree(self.dir / "set")
                 for key in ("blades", "images", "gpu_bytes", "variants"):
                     self.assertEqual(told[key], made[key], key)
                 self.assertAlmostEqual(told["canopy_m"], made["canopy_m"], delta=1e-6)
                 self.assertEqual(told["levels"], [dict(level) for level in made["levels"]])
                 for name, file in told["files"].items():
-                    # How many digits the ranks' bounds have in the GLB's header is not known before blades have ranks.
-                    self.assertAlmostEqual(file["unpacked_bytes"], made["files"][name].get("unpacked_bytes", made["files"][name]["bytes"]),
-                                           delta=128 if name == "blades.glb" else 0, msg=name)
+                    # How many digits the ranks' bounds have in the GLB's header is not known before
+                    # blades have ranks.
+                    self.assertAlmostEqual(
+                        file["unpacked_bytes"],
+                        made["files"][name].get("unpacked_bytes", made["files"][name]["bytes"]),
+                        delta=128 if name == "blades.glb" else 0,
+                        msg=name,
+                    )
                 self.assertGreater(told["peak_bytes"], 1 << 20)
         text = self.texgen("tiny.toml", "-o", "set", "--dry-run")
         self.assert_done(text)
@@ -190,7 +296,9 @@ class Reports(TexgenCase):
         self.assertEqual(sward_cli.snapshot(self.dir), before)
 
     def test_dry_run_of_many_blades(self):
-        many = sward_cli.TINY_PRESET.replace("density_per_m2 = 300.0", "density_per_m2 = 50000.0").replace("side_m = 1.0", "side_m = 2.0")
+        many = sward_cli.TINY_PRESET.replace(
+            "density_per_m2 = 300.0", "density_per_m2 = 50000.0"
+        ).replace("side_m = 1.0", "side_m = 2.0")
         (self.dir / "many.toml").write_text(many)
         result = self.texgen("many.toml", "--dry-run", "--json")
         self.assert_done(result)
@@ -201,14 +309,20 @@ class Reports(TexgenCase):
         result = self.texgen("--list")
         self.assert_done(result)
         lines = result.out.splitlines()
-        self.assertEqual(len(lines), len(list((sward_cli.SOURCE / "texgen/presets").glob("*.toml"))))
-        self.assertTrue(any(line.startswith("meadow ") and len(line) > 30 for line in lines), result.out)
+        self.assertEqual(
+            len(lines), len(list((sward_cli.SOURCE / "texgen/presets").glob("*.toml")))
+        )
+        self.assertTrue(
+            any(line.startswith("meadow ") and len(line) > 30 for line in lines), result.out
+        )
 
     def test_size_lowers_levels(self):
         text = self.texgen("meadow", "--dry-run", "--size", "64")
         self.assert_done(text)
         self.assertIn("--size 64: 3 levels instead of 4", text.err)
-        self.refuse_texgen(2, ["--size 64, --levels 4"], "meadow", "--dry-run", "--size", "64", "--levels", "4")
+        self.refuse_texgen(
+            2, ["--size 64, --levels 4"], "meadow", "--dry-run", "--size", "64", "--levels", "4"
+        )
 
     def test_empty_preset(self):
         (self.dir / "empty.toml").write_text("# nothing yet\n")
@@ -235,15 +349,26 @@ class Reports(TexgenCase):
         made = self.bake("set", "--no-volume", "--preview", "sheet.png")
         self.assertNotIn("preview.png", made)
         self.assertTrue((self.dir / "sheet.png").read_bytes().startswith(PNG))
-        self.refuse_texgen(5, ["--preview", "inside"], "tiny.toml", "-o", "set", "--preview", "set/p.png")
-        
+        self.refuse_texgen(
+            5, ["--preview", "inside"], "tiny.toml", "-o", "set", "--preview", "set/p.png"
+        )
+
     def test_inspect(self):
         self.bake("set", "--no-preview")
         text = self.texgen("inspect", "set").out
-        for piece in ('"tiny"', "300 blades", "level 0   64 x 64", "layers_1.ktx2", "volume.vdb", "GPU"):
+        for piece in (
+            '"tiny"',
+            "300 blades",
+            "level 0   64 x 64",
+            "layers_1.ktx2",
+            "volume.vdb",
+            "GPU",
+        ):
             self.assertIn(piece, text)
         array = json.loads(self.texgen("inspect", "set/slices.ktx2", "--json").out)
-        self.assertEqual((array["format"], array["width"], array["images"], array["mips"]), ("RGBA8", 64, 16, 7))
+        self.assertEqual(
+            (array["format"], array["width"], array["images"], array["mips"]), ("RGBA8", 64, 16, 7)
+        )
         self.assertIn("64 x 64 texels", self.texgen("inspect", "set/layers.ktx2").out)
         volume = json.loads(self.texgen("inspect", "set/volume.vdb", "--json").out)
         self.assertIn("density", str(volume["grids"]))
@@ -308,8 +433,17 @@ class Verify(TexgenCase):
         del other["files"][name]
         shares = json.loads(whole)
         shares["far"][0]["coverage"] = 1.5
-        for text in ("", "{}", "[" * 5000, whole[: len(whole) // 2], json.dumps(dict(root, version=1)),
-                     json.dumps(dict(root, files=[])), json.dumps(away), json.dumps(other), json.dumps(shares)):
+        for text in (
+            "",
+            "{}",
+            "[" * 5000,
+            whole[: len(whole) // 2],
+            json.dumps(dict(root, version=1)),
+            json.dumps(dict(root, files=[])),
+            json.dumps(away),
+            json.dumps(other),
+            json.dumps(shares),
+        ):
             with self.subTest(text=text[:40]):
                 path.write_text(text)
                 self.refuse_texgen(3, ["set.json"], "verify", "set")
@@ -323,18 +457,33 @@ class Verify(TexgenCase):
         self.bake("set", *FAST)
         glb = (path / "blades.glb").read_bytes()
         self.assertEqual(glb.count(b'"_V1_X"'), 1)
-        size, = struct.unpack_from("<I", glb, 12)
-        root, data = json.loads(glb[20:20 + size]), bytearray(glb[28 + size:])
+        (size,) = struct.unpack_from("<I", glb, 12)
+        root, data = json.loads(glb[20 : 20 + size]), bytearray(glb[28 + size :])
         attributes = root["meshes"][0]["primitives"][0]["attributes"]
         for name in ("_V1", "_V2"):
             parts = []
             for axis in "XYZ":
-                view = root["bufferViews"][root["accessors"][attributes.pop(f"{name}_{axis}")]["bufferView"]]
+                view = root["bufferViews"][
+                    root["accessors"][attributes.pop(f"{name}_{axis}")]["bufferView"]
+                ]
                 at = view.get("byteOffset", 0)
-                parts.append(struct.unpack(f"<{view['byteLength'] // 4}f", data[at:at + view["byteLength"]]))
+                parts.append(
+                    struct.unpack(
+                        f"<{view['byteLength'] // 4}f", data[at : at + view["byteLength"]]
+                    )
+                )
             values = [v for point in zip(*parts, strict=True) for v in point]
-            root["bufferViews"].append({"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(values)})
-            root["accessors"].append({"bufferView": len(root["bufferViews"]) - 1, "componentType": 5126, "count": len(values) // 3, "type": "VEC3"})
+            root["bufferViews"].append(
+                {"buffer": 0, "byteOffset": len(data), "byteLength": 4 * len(values)}
+            )
+            root["accessors"].append(
+                {
+                    "bufferView": len(root["bufferViews"]) - 1,
+                    "componentType": 5126,
+                    "count": len(values) // 3,
+                    "type": "VEC3",
+                }
+            )
             attributes[name] = len(root["accessors"]) - 1
             data += struct.pack(f"<{len(values)}f", *values)
         root["buffers"][0]["byteLength"] = len(data)
@@ -354,10 +503,18 @@ class Verify(TexgenCase):
         text = json.dumps(root).encode()
         text += b" " * (-len(text) % 4)
         glb = struct.pack("<4sII", b"glTF", 2, 28 + len(text) + len(data))
-        glb += struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(data), b"BIN\0") + data
+        glb += (
+            struct.pack("<I4s", len(text), b"JSON")
+            + text
+            + struct.pack("<I4s", len(data), b"BIN\0")
+            + data
+        )
         (path / "blades.glb").write_bytes(glb)
         facts = json.loads((path / "set.json").read_text())
-        facts["files"]["blades.glb"] = {"bytes": len(glb), "sha256": hashlib.sha256(glb).hexdigest()}
+        facts["files"]["blades.glb"] = {
+            "bytes": len(glb),
+            "sha256": hashlib.sha256(glb).hexdigest(),
+        }
         (path / "set.json").write_text(json.dumps(facts))
 
     def test_foreign_file_is_told(self):

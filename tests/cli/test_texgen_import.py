@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""texgen import and seam as tools: the same set at any number of threads, volumes and stacks that are not quite right, and damaged
+"""texgen import and seam as tools: the same set at any number of threads, volumes and stacks that
+are not quite right, and damaged
 ones, which no library may be the first to see."""
+
 import hashlib
 import json
 import random
@@ -31,7 +33,8 @@ def transform(voxel, shift=(0.0, 0.0, 0.0)):
 
 
 class Grid:
-    """A grid of OpenVDB's format, unpacked, as it stands in a file: values in whole leaves of one node."""
+    """A grid of OpenVDB's format, unpacked, as it stands in a file: values in whole leaves of one
+    node."""
 
     def __init__(self, name, values, components=1, matrix=None, entries=()):
         self.name, self.values, self.components = name, values, components
@@ -62,7 +65,9 @@ class Grid:
         leaves = self.leaves()
         head = struct.pack("<I", 0) + struct.pack("<I", 1 + len(self.entries))
         head += meta("class", "string", b"fog volume") + b"".join(self.entries) + self.transform
-        head += struct.pack("<i", 1) + bytes(4 * self.components) + struct.pack("<II3i", 0, 1, 0, 0, 0)
+        head += (
+            struct.pack("<i", 1) + bytes(4 * self.components) + struct.pack("<II3i", 0, 1, 0, 0, 0)
+        )
         order = sorted((x * 16 + y) * 16 + z for x, y, z in leaves)
         head += self.node([0], 32768) + self.node(order, 4096)
         blocks = b""
@@ -70,12 +75,22 @@ class Grid:
             leaf = leaves[(index // 256, index // 16 % 16, index % 16)]
             head += self.mask(leaf)
             cells = [leaf.get(i, (0.0,) * self.components) for i in range(512)]
-            blocks += self.mask(leaf) + b"\x06" + b"".join(struct.pack(f"<{self.components}f", *cell) for cell in cells)
+            blocks += (
+                self.mask(leaf)
+                + b"\x06"
+                + b"".join(struct.pack(f"<{self.components}f", *cell) for cell in cells)
+            )
         return head, blocks
 
 
 def write_vdb(path, *grids):
-    out = b" BDV\0\0\0\0" + struct.pack("<III", 224, 10, 0) + b"\1" + b"0" * 36 + struct.pack("<Ii", 0, len(grids))
+    out = (
+        b" BDV\0\0\0\0"
+        + struct.pack("<III", 224, 10, 0)
+        + b"\1"
+        + b"0" * 36
+        + struct.pack("<Ii", 0, len(grids))
+    )
     for grid in grids:
         out += text(grid.name) + text(grid.kind) + text("")
         head, blocks = grid.encode()
@@ -86,7 +101,13 @@ def write_vdb(path, *grids):
 
 def posts(side=32, height=12, value=1.0):
     """Posts of two voxels on a grid of eight: periodic."""
-    return {(x, y, z): (value,) for x in range(side) for y in range(height) for z in range(side) if x % 8 in (3, 4) and z % 8 in (3, 4)}
+    return {
+        (x, y, z): (value,)
+        for x in range(side)
+        for y in range(height)
+        for z in range(side)
+        if x % 8 in (3, 4) and z % 8 in (3, 4)
+    }
 
 
 class ImportCase(CliCase):
@@ -107,7 +128,9 @@ class ImportCase(CliCase):
         return self.dir / "own/volume.vdb"
 
     def import_set(self, file, name, *arguments):
-        result = self.texgen("import", file, "-o", name, "--period", "0.32", *FAST, *FEW, *arguments)
+        result = self.texgen(
+            "import", file, "-o", name, "--period", "0.32", *FAST, *FEW, *arguments
+        )
         self.assert_done(result)
         self.assert_done(self.texgen("verify", name, "-q"))
         return result
@@ -115,7 +138,8 @@ class ImportCase(CliCase):
 
 class Import(ImportCase):
     def test_threads(self):
-        """The default and 1 to 16 threads make the same bytes, of a foreign volume and of our own."""
+        """The default and 1 to 16 threads make the same bytes, of a foreign volume and of our
+        own."""
         write_vdb(self.dir / "posts.vdb", Grid("density", posts()))
         sets = []
         for threads in (0, 1, 2, 16):
@@ -123,15 +147,31 @@ class Import(ImportCase):
             sets.append(self.content(f"set{threads}"))
         self.own_volume()
         for threads in (0, 1, 5):
-            self.assert_done(self.texgen("import", "own/volume.vdb", "-o", f"again{threads}", *FAST, *FEW, "--threads", threads))
-        for one, other in [*((sets[0], s) for s in sets[1:]), *((self.content("again0"), self.content(f"again{n}")) for n in (1, 5))]:
+            self.assert_done(
+                self.texgen(
+                    "import",
+                    "own/volume.vdb",
+                    "-o",
+                    f"again{threads}",
+                    *FAST,
+                    *FEW,
+                    "--threads",
+                    threads,
+                )
+            )
+        for one, other in [
+            *((sets[0], s) for s in sets[1:]),
+            *((self.content("again0"), self.content(f"again{n}")) for n in (1, 5)),
+        ]:
             self.assertEqual(sorted(one), sorted(other))
             for name, bytes_ in one.items():
                 self.assertTrue(bytes_ == other[name], name)
 
     def test_preview_and_report(self):
         write_vdb(self.dir / "posts.vdb", Grid("density", posts()))
-        result = self.texgen("import", "posts.vdb", "-o", "deep/down/set", "--period", "0.32", "--json", *FEW)
+        result = self.texgen(
+            "import", "posts.vdb", "-o", "deep/down/set", "--period", "0.32", "--json", *FEW
+        )
         self.assert_done(result)
         report = json.loads(result.out)
         self.assertEqual((report["voxels"], round(report["side_m"], 3)), (len(posts()), 0.32))
@@ -141,17 +181,30 @@ class Import(ImportCase):
         """A grid of any of the three names gives the species its colour."""
         values = posts()
         for name in ("colour", "color", "Cd"):
-            write_vdb(self.dir / "c.vdb", Grid("density", values), Grid(name, {at: (0.5, 0.1, 0.2) for at in values}, 3))
+            write_vdb(
+                self.dir / "c.vdb",
+                Grid("density", values),
+                Grid(name, {at: (0.5, 0.1, 0.2) for at in values}, 3),
+            )
             self.import_set("c.vdb", name)
             look = json.loads((self.dir / name / "set.json").read_text())["species"][0]["look"]
             for found, wanted in zip(look["root"], (0.5, 0.1, 0.2)):
                 self.assertAlmostEqual(found, wanted, delta=0.01)
 
     def test_own_volume_covers_and_colours_as_its_set(self):
-        """Within a point and 2 %, at every elevation and in the mean over them, where blades share voxels and a few are of another colour."""
-        preset = sward_cli.TINY_PRESET.replace("density_per_m2 = 300.0", "density_per_m2 = 1500.0").replace("size = 64", "size = 128")
-        preset = preset.replace("far_rays = 1024", "far_rays = 16384").replace("levels = 2", "levels = 1")
-        for own, plain in (("ks = 0.05", "ks = 0.06"), ("ps = 16.0", "ps = 18.0"), ("translucency = 0.35", "translucency = 0.45")):
+        """Within a point and 2 %, at every elevation and in the mean over them, where blades share
+        voxels and a few are of another colour."""
+        preset = sward_cli.TINY_PRESET.replace(
+            "density_per_m2 = 300.0", "density_per_m2 = 1500.0"
+        ).replace("size = 64", "size = 128")
+        preset = preset.replace("far_rays = 1024", "far_rays = 16384").replace(
+            "levels = 2", "levels = 1"
+        )
+        for own, plain in (
+            ("ks = 0.05", "ks = 0.06"),
+            ("ps = 16.0", "ps = 18.0"),
+            ("translucency = 0.35", "translucency = 0.45"),
+        ):
             preset = preset.replace(own, plain)  # what a volume does not carry
         preset += "[[species]]\nname = 'green'\nshare = 5\n[[species]]\nname = 'red'\nshare = 1\n[species.colour]\nroot = [0.5, 0.02, 0.02]\n"
         preset += "tip = [0.7, 0.03, 0.02]\n"
@@ -159,14 +212,26 @@ class Import(ImportCase):
         few = ("--layers", "2", "--slices", "2", "--levels", "1", *FAST)
         self.assert_done(self.texgen("two.toml", "-o", "own", *few, timeout=600))
         self.assert_done(self.texgen("import", "own/volume.vdb", "-o", "back", *few, timeout=600))
-        made, back = (json.loads(self.texgen("inspect", name, "--json").out)["far"] for name in ("own", "back"))
+        made, back = (
+            json.loads(self.texgen("inspect", name, "--json").out)["far"]
+            for name in ("own", "back")
+        )
         for one, other in zip(made, back):
-            self.assertAlmostEqual(one["coverage"], other["coverage"], delta=0.01, msg=one["elevation_deg"])
+            self.assertAlmostEqual(
+                one["coverage"], other["coverage"], delta=0.01, msg=one["elevation_deg"]
+            )
         light = []
         for name in ("own", "back"):
             with OpenEXR.File(str(self.dir / name / "far.exr"), separate_channels=True) as file:
                 channels = file.channels()
-                light.append(numpy.array([[channels[f"{kind}.{c}"].pixels[:len(made)].mean() for c in "RGB"] for kind in ("sun", "sky")]))
+                light.append(
+                    numpy.array(
+                        [
+                            [channels[f"{kind}.{c}"].pixels[: len(made)].mean() for c in "RGB"]
+                            for kind in ("sun", "sky")
+                        ]
+                    )
+                )
         self.assertLess(numpy.abs(light[1] / light[0] - 1).max(), 0.02, light)
         look = json.loads((self.dir / "back/set.json").read_text())["species"][0]["look"]
         self.assertGreater(light[1][0][0], light[1][0][1], "red blades are seen")
@@ -176,7 +241,10 @@ class Import(ImportCase):
         values = posts()
         values[(0, 0, 0)], values[(1, 0, 0)], values[(2, 0, 0)] = (-1e-4,), (1e-40,), (-1e-30,)
         write_vdb(self.dir / "n.vdb", Grid("density", values))
-        for arguments in (("inspect", "n.vdb"), ("import", "n.vdb", "-o", "set", "--period", "0.32", "--no-preview", *FEW)):
+        for arguments in (
+            ("inspect", "n.vdb"),
+            ("import", "n.vdb", "-o", "set", "--period", "0.32", "--no-preview", *FEW),
+        ):
             result = self.texgen(*arguments)
             self.assert_done(result)
             warnings = [line for line in result.err.splitlines() if line.startswith("warning")]
@@ -196,7 +264,16 @@ class Import(ImportCase):
     def test_options(self):
         write_vdb(self.dir / "posts.vdb", Grid("density", posts()))
         for value in ("0.05", "0.325", "500"):
-            self.refuse_texgen(2, ["--period", value, "voxels"], "import", "posts.vdb", "-o", "set", "--period", value)
+            self.refuse_texgen(
+                2,
+                ["--period", value, "voxels"],
+                "import",
+                "posts.vdb",
+                "-o",
+                "set",
+                "--period",
+                value,
+            )
         self.refuse_texgen(2, ["--side"], "import", "posts.vdb", "-o", "set", "--side", "1")
         self.refuse_texgen(2, ["--cut"], "seam", "posts.vdb", "-o", "o.vdb", "--cut", "0.9")
         self.refuse_texgen(2, ["--cut"], "import", "posts.vdb", "-o", "set", "--seam", "--cut", "2")
@@ -205,19 +282,26 @@ class Import(ImportCase):
 class Stack(ImportCase):
     def test_exported_pictures_come_back(self):
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
-        self.assert_done(self.texgen("tiny.toml", "-o", "own", "--export", "png", "--no-volume", *FAST))
+        self.assert_done(
+            self.texgen("tiny.toml", "-o", "own", "--export", "png", "--no-volume", *FAST)
+        )
         self.assert_done(self.texgen("import", "own-png", "-o", "back", *FAST, *FEW))
         self.assert_done(self.texgen("verify", "back", "-q"))
-        made, back = (json.loads(self.texgen("inspect", name, "--json").out) for name in ("own", "back"))
+        made, back = (
+            json.loads(self.texgen("inspect", name, "--json").out) for name in ("own", "back")
+        )
         self.assertAlmostEqual(made["side_m"], back["side_m"], delta=1e-6)
         self.assertAlmostEqual(made["far"][0]["coverage"], back["far"][0]["coverage"], delta=0.05)
 
     def test_seam_of_small_pictures(self):
-        """An eighth of 10 texels is too narrow a border: three are cut. Of 8 texels no third can be."""
+        """An eighth of 10 texels is too narrow a border: three are cut. Of 8 texels no third can
+        be."""
         for side in (10, 8):
             (self.dir / str(side)).mkdir()
             for i in range(3):
-                Image.new("RGBA", (side, side), (40, 90, 20, 255)).save(self.dir / str(side) / f"l{i}.png")
+                Image.new("RGBA", (side, side), (40, 90, 20, 255)).save(
+                    self.dir / str(side) / f"l{i}.png"
+                )
         self.assert_done(self.texgen("seam", "10", "-o", "out", "-q"))
         with Image.open(self.dir / "out/l0.png") as picture:
             self.assertEqual(picture.size, (7, 7))
@@ -225,7 +309,11 @@ class Stack(ImportCase):
 
     def test_seam_describes_its_stack(self):
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
-        self.assert_done(self.texgen("tiny.toml", "-o", "own", "--export", "png", "--no-volume", "--no-wrap", *FAST))
+        self.assert_done(
+            self.texgen(
+                "tiny.toml", "-o", "own", "--export", "png", "--no-volume", "--no-wrap", *FAST
+            )
+        )
         self.assert_done(self.texgen("seam", "own-png", "-o", "seamless", "-q"))
         stack = json.loads((self.dir / "seamless/stack.json").read_text())
         self.assertAlmostEqual(stack["side_m"], 56 / 64)
@@ -236,19 +324,32 @@ class Stack(ImportCase):
         del stack["side_m"]
         (self.dir / "seamless/stack.json").write_text(json.dumps(stack))
         self.refuse_texgen(3, ["stack.json", "side_m", "--side"], "import", "seamless", "-o", "new")
-        self.assert_done(self.texgen("import", "seamless", "-o", "even", "--side", "0.875", *FAST, *FEW))
+        self.assert_done(
+            self.texgen("import", "seamless", "-o", "even", "--side", "0.875", *FAST, *FEW)
+        )
         self.refuse_texgen(2, ["--up"], "import", "seamless", "-o", "new", "--up", "z")
 
     def test_descriptions(self):
         folder = self.dir / "stack"
         folder.mkdir()
         self.refuse_texgen(3, ["stack.json"], "import", "stack", "-o", "set")
-        for words in ("", "[]", "{}", '{"images": []}', '{"images": [3]}', '{"images": [{"file": "../a.png"}]}', "[" * 90000,
-                      '{"side_m": -1, "images": [{"file": "a.png"}]}', '{"images": [{"file": "a.png"}, {"file": "b.png", "height_m": 1}]}'):
+        for words in (
+            "",
+            "[]",
+            "{}",
+            '{"images": []}',
+            '{"images": [3]}',
+            '{"images": [{"file": "../a.png"}]}',
+            "[" * 90000,
+            '{"side_m": -1, "images": [{"file": "a.png"}]}',
+            '{"images": [{"file": "a.png"}, {"file": "b.png", "height_m": 1}]}',
+        ):
             with self.subTest(words=words[:40]):
                 (folder / "stack.json").write_text(words)
                 self.refuse_texgen(3, ["stack.json"], "import", "stack", "-o", "set")
-        (folder / "stack.json").write_text('{"side_m": 1, "canopy_m": 1, "images": [{"file": "a.png"}]}')
+        (folder / "stack.json").write_text(
+            '{"side_m": 1, "canopy_m": 1, "images": [{"file": "a.png"}]}'
+        )
         self.refuse_texgen(5, ["a.png"], "import", "stack", "-o", "set")
 
 
@@ -260,29 +361,50 @@ class Hostile(ImportCase):
             self.assert_refusal(result, result.code, path)
 
     def test_lengths(self):
-        """Every chunk's length, a string's, a count, negative and huge: refused by name, soon and small."""
+        """Every chunk's length, a string's, a count, negative and huge: refused by name, soon and
+        small."""
         whole = self.own_volume().read_bytes()
-        odd = [struct.pack("<q", v) for v in (-1, -70, 0x10000000, 1 << 40, -(1 << 63), (1 << 63) - 1)]
+        odd = [
+            struct.pack("<q", v) for v in (-1, -70, 0x10000000, 1 << 40, -(1 << 63), (1 << 63) - 1)
+        ]
         rng = random.Random(5)
-        places = [73, 80, 104, 112, 120, 132, *(rng.randrange(8, 1400) for _ in range(30)), *(rng.randrange(1400, len(whole) - 8) for _ in range(60))]
+        places = [
+            73,
+            80,
+            104,
+            112,
+            120,
+            132,
+            *(rng.randrange(8, 1400) for _ in range(30)),
+            *(rng.randrange(1400, len(whole) - 8) for _ in range(60)),
+        ]
         for number, at in enumerate(places):
             bad = bytearray(whole)
-            bad[at:at + 8] = odd[number % len(odd)]
+            bad[at : at + 8] = odd[number % len(odd)]
             (self.dir / "bad.vdb").write_bytes(bad)
             with self.subTest(at=at):
                 self.refused("bad.vdb", "inspect", "bad.vdb")
 
     def test_every_grid_is_looked_at(self):
-        """Damage in a grid that nobody asks for is told too; so is an end that is not where the table of grids says."""
+        """Damage in a grid that nobody asks for is told too; so is an end that is not where the
+        table of grids says."""
         values = posts(16, 4)
-        write_vdb(self.dir / "two.vdb", Grid("density", values), Grid("other", {at: (0.5,) for at in values}))
+        write_vdb(
+            self.dir / "two.vdb",
+            Grid("density", values),
+            Grid("other", {at: (0.5,) for at in values}),
+        )
         whole = (self.dir / "two.vdb").read_bytes()
         self.assert_done(self.texgen("inspect", "two.vdb"))
         leaf = len(whole) - 64 - 1 - 2048  # the last: mask, kind of its values, values
         end = whole.rindex(struct.pack("<q", len(whole)))
-        for at, new in ((leaf, b"\xff" * 8), (leaf + 64, b"\x09"), (end, struct.pack("<q", len(whole) - 8))):
+        for at, new in (
+            (leaf, b"\xff" * 8),
+            (leaf + 64, b"\x09"),
+            (end, struct.pack("<q", len(whole) - 8)),
+        ):
             with self.subTest(at=at):
-                (self.dir / "bad.vdb").write_bytes(whole[:at] + new + whole[at + len(new):])
+                (self.dir / "bad.vdb").write_bytes(whole[:at] + new + whole[at + len(new) :])
                 self.refuse_texgen(3, ["bad.vdb", "other"], "inspect", "bad.vdb")
         rng = random.Random(7)
         for size in (0, 64, 192, *(rng.randrange(len(whole)) for _ in range(20)), len(whole) - 1):
@@ -299,7 +421,12 @@ class Hostile(ImportCase):
                 bad[rng.randrange(len(bad))] = rng.randrange(256)
             (self.dir / "bad.vdb").write_bytes(bad)
             with self.subTest(number=number):
-                self.refused("bad.vdb", "seam" if number % 2 else "inspect", "bad.vdb", *(("-o", "s.vdb", "-q") if number % 2 else ()))
+                self.refused(
+                    "bad.vdb",
+                    "seam" if number % 2 else "inspect",
+                    "bad.vdb",
+                    *(("-o", "s.vdb", "-q") if number % 2 else ()),
+                )
 
     def test_resigned_set(self):
         """A set whose hashes are right again is verified all the same."""
@@ -317,12 +444,20 @@ class Hostile(ImportCase):
     def test_transforms(self):
         for voxel in (0.0, 1e-9, 1e-5, float("nan"), float("inf"), 1e300):
             write_vdb(self.dir / "t.vdb", Grid("density", posts(16, 4), matrix=transform(voxel)))
-            for arguments in (("import", "t.vdb", "-o", "set"), ("seam", "t.vdb", "-o", "s.vdb", "--cut", "4")):
+            for arguments in (
+                ("import", "t.vdb", "-o", "set"),
+                ("seam", "t.vdb", "-o", "s.vdb", "--cut", "4"),
+            ):
                 with self.subTest(voxel=voxel, command=arguments[0]):
                     self.refuse_texgen(3, ["t.vdb", "transform"], *arguments)
 
     def test_other_files(self):
-        for name, content in (("e.vdb", b""), ("s.vdb", b" BDV"), ("t.vdb", b"words"), ("v.vdb", b" BDV\0\0\0\0" + struct.pack("<I", 200) + bytes(90))):
+        for name, content in (
+            ("e.vdb", b""),
+            ("s.vdb", b" BDV"),
+            ("t.vdb", b"words"),
+            ("v.vdb", b" BDV\0\0\0\0" + struct.pack("<I", 200) + bytes(90)),
+        ):
             (self.dir / name).write_bytes(content)
             self.refuse_texgen(3, [name], "inspect", name)
         with open(self.dir / "sparse.vdb", "wb") as file:

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The viewer on a virtual display: it draws, listens to keys, and survives being resized."""
+
 import ctypes
 import ctypes.util
 import os
@@ -15,7 +16,7 @@ import sward_cli
 from sward_cli import CliCase, environment
 
 WIDTH, HEIGHT = 480, 270
-F11, F12, ESCAPE = chr(0xffc8), chr(0xffc9), chr(0xff1b)
+F11, F12, ESCAPE = chr(0xFFC8), chr(0xFFC9), chr(0xFF1B)
 BAKE = sward_cli.TINY_PRESET.replace("far_rays = 1024", "far_rays = 1048576")  # a minute and more
 POSE = re.compile(r"^-?[\d.]+,-?[\d.]+,-?[\d.]+,-?[\d.]+,-?[\d.]+$", re.MULTILINE)
 
@@ -33,16 +34,32 @@ def runs(pid):
 
 
 def children(pid):
-    return [int(entry.name) for entry in Path("/proc").iterdir() if entry.name.isdigit() and status_of(entry.name)[1] == str(pid)]
+    return [
+        int(entry.name)
+        for entry in Path("/proc").iterdir()
+        if entry.name.isdigit() and status_of(entry.name)[1] == str(pid)
+    ]
 
 
 class XKeyEvent(ctypes.Structure):
-    _fields_ = [("type", ctypes.c_int), ("serial", ctypes.c_ulong), ("send_event", ctypes.c_int),
-                ("display", ctypes.c_void_p), ("window", ctypes.c_ulong), ("root", ctypes.c_ulong),
-                ("subwindow", ctypes.c_ulong), ("time", ctypes.c_ulong), ("x", ctypes.c_int),
-                ("y", ctypes.c_int), ("x_root", ctypes.c_int), ("y_root", ctypes.c_int),
-                ("state", ctypes.c_uint), ("keycode", ctypes.c_uint), ("same_screen", ctypes.c_int),
-                ("pad", ctypes.c_long * 24)]
+    _fields_ = [
+        ("type", ctypes.c_int),
+        ("serial", ctypes.c_ulong),
+        ("send_event", ctypes.c_int),
+        ("display", ctypes.c_void_p),
+        ("window", ctypes.c_ulong),
+        ("root", ctypes.c_ulong),
+        ("subwindow", ctypes.c_ulong),
+        ("time", ctypes.c_ulong),
+        ("x", ctypes.c_int),
+        ("y", ctypes.c_int),
+        ("x_root", ctypes.c_int),
+        ("y_root", ctypes.c_int),
+        ("state", ctypes.c_uint),
+        ("keycode", ctypes.c_uint),
+        ("same_screen", ctypes.c_int),
+        ("pad", ctypes.c_long * 24),
+    ]
 
 
 class Display:
@@ -52,8 +69,21 @@ class Display:
         read, write = os.pipe()
         self.folder = folder
         self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(write), "-screen", "0", f"{WIDTH}x{HEIGHT}x24", "-nolisten", "tcp",
-             "-fbdir", str(folder)], pass_fds=[write], stderr=subprocess.DEVNULL)
+            [
+                "Xvfb",
+                "-displayfd",
+                str(write),
+                "-screen",
+                "0",
+                f"{WIDTH}x{HEIGHT}x24",
+                "-nolisten",
+                "tcp",
+                "-fbdir",
+                str(folder),
+            ],
+            pass_fds=[write],
+            stderr=subprocess.DEVNULL,
+        )
         os.close(write)
         with os.fdopen(read) as pipe:
             self.name = ":" + pipe.readline().strip()
@@ -74,29 +104,44 @@ class Display:
         data = (self.folder / "Xvfb_screen0").read_bytes()
         header = struct.unpack(">25I", data[:100])
         begin = header[0] + 12 * header[19]
-        pixels = data[begin:begin + header[12] * header[5]]
-        return [pixel & 0xffffff for pixel in struct.unpack(f"<{len(pixels) // 4}I", pixels)]
+        pixels = data[begin : begin + header[12] * header[5]]
+        return [pixel & 0xFFFFFF for pixel in struct.unpack(f"<{len(pixels) // 4}I", pixels)]
 
     def colours(self):
         return len(set(self.pixels()))
 
     def has_panel(self):
         """Its letters are pure white, which no grass and no sky is."""
-        return self.pixels().count(0xffffff) > 100
+        return self.pixels().count(0xFFFFFF) > 100
 
     def windows(self):
         """Mapped top-level windows."""
         root, parent = ctypes.c_ulong(), ctypes.c_ulong()
         children, count = ctypes.POINTER(ctypes.c_ulong)(), ctypes.c_uint()
-        self.x11.XQueryTree(self.connection, ctypes.c_ulong(self.root), ctypes.byref(root),
-                            ctypes.byref(parent), ctypes.byref(children), ctypes.byref(count))
+        self.x11.XQueryTree(
+            self.connection,
+            ctypes.c_ulong(self.root),
+            ctypes.byref(root),
+            ctypes.byref(parent),
+            ctypes.byref(children),
+            ctypes.byref(count),
+        )
         return [children[i] for i in range(count.value)]
 
     def geometry(self, window):
         """x, y, width, height of a window on the screen."""
         root = ctypes.c_ulong()
-        numbers = [ctypes.c_int(), ctypes.c_int(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint(), ctypes.c_uint()]
-        self.x11.XGetGeometry(self.connection, ctypes.c_ulong(window), ctypes.byref(root), *map(ctypes.byref, numbers))
+        numbers = [
+            ctypes.c_int(),
+            ctypes.c_int(),
+            ctypes.c_uint(),
+            ctypes.c_uint(),
+            ctypes.c_uint(),
+            ctypes.c_uint(),
+        ]
+        self.x11.XGetGeometry(
+            self.connection, ctypes.c_ulong(window), ctypes.byref(root), *map(ctypes.byref, numbers)
+        )
         return tuple(number.value for number in numbers[:4])
 
     def resize(self, window, width, height):
@@ -106,8 +151,17 @@ class Display:
     def send(self, window, kind, mask, code, x=0, y=0, state=0):
         """A key or button event: of these the two have the same layout."""
         self.time += 10
-        event = XKeyEvent(type=kind, window=window, root=self.root, same_screen=1, keycode=code, time=self.time,
-                          x=x, y=y, state=state)
+        event = XKeyEvent(
+            type=kind,
+            window=window,
+            root=self.root,
+            same_screen=1,
+            keycode=code,
+            time=self.time,
+            x=x,
+            y=y,
+            state=state,
+        )
         self.x11.XSendEvent(self.connection, ctypes.c_ulong(window), 0, mask, ctypes.byref(event))
         self.x11.XSync(self.connection, 0)
 
@@ -121,14 +175,16 @@ class Display:
 
     def command(self, window, key):
         """Ctrl and a letter."""
-        control = chr(0xffe3)
+        control = chr(0xFFE3)
         self.key(window, control, True)
         self.key(window, key, True, state=4)
         self.key(window, key, False, state=4)
         self.key(window, control, False)
 
     def point(self, window, x, y):
-        self.x11.XWarpPointer(self.connection, ctypes.c_ulong(0), ctypes.c_ulong(window), 0, 0, 0, 0, x, y)
+        self.x11.XWarpPointer(
+            self.connection, ctypes.c_ulong(0), ctypes.c_ulong(window), 0, 0, 0, 0, x, y
+        )
         self.x11.XSync(self.connection, 0)
 
     def press(self, window, x, y):
@@ -149,13 +205,21 @@ class ViewCase(CliCase):
         screen.mkdir()
         self.display = Display(screen)
         self.addCleanup(self.display.close)
-        self.env = environment(DISPLAY=self.display.name, EGL_PLATFORM=None, XDG_STATE_HOME=self.dir / "state")
+        self.env = environment(
+            DISPLAY=self.display.name, EGL_PLATFORM=None, XDG_STATE_HOME=self.dir / "state"
+        )
 
     def view(self, *arguments):
         size = () if "--window" in arguments else ("--size", f"{WIDTH}x{HEIGHT}")
         command = [str(sward_cli.BIN / "sward"), "view", "scene.toml", *size, *arguments]
-        child = subprocess.Popen(command, cwd=self.dir, env=self.env, stdout=subprocess.PIPE,
-                                 stderr=subprocess.PIPE, text=True)
+        child = subprocess.Popen(
+            command,
+            cwd=self.dir,
+            env=self.env,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.addCleanup(child.communicate)
         self.addCleanup(child.kill)
         return child
@@ -173,8 +237,18 @@ class ViewCase(CliCase):
 
 class View(ViewCase):
     def test_frames(self):
-        result = self.sward("view", "scene.toml", "--size", "320x180", "--frames", "3", "--fixed-timestep",
-                            "0.1", "--debug-gl", env=self.env)
+        result = self.sward(
+            "view",
+            "scene.toml",
+            "--size",
+            "320x180",
+            "--frames",
+            "3",
+            "--fixed-timestep",
+            "0.1",
+            "--debug-gl",
+            env=self.env,
+        )
         self.assert_done(result)
         self.assertEqual(result.out, "")
 
@@ -193,22 +267,30 @@ class View(ViewCase):
         self.wait_for(lambda: (self.dir / "sward-0001.png").exists(), child)
         self.display.tap(window, F12)
         self.wait_for(lambda: (self.dir / "sward-0002.png").exists(), child)
-        self.assertEqual((self.dir / "state/sward/recent-scenes").read_text(), f"{self.dir / 'scene.toml'}\n")
+        self.assertEqual(
+            (self.dir / "state/sward/recent-scenes").read_text(), f"{self.dir / 'scene.toml'}\n"
+        )
         child.send_signal(signal.SIGTERM)
         out, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 143, err)
         self.assertRegex(out, POSE)
-        self.assertEqual([float(n) for n in POSE.search(out).group().split(",")], [3, 2, 1, 45, -10])
+        self.assertEqual(
+            [float(n) for n in POSE.search(out).group().split(",")], [3, 2, 1, 45, -10]
+        )
         self.assertIn("shaders reloaded", err)
         self.assertNotIn("error: ", err)
 
     def arrows(self):
         """The arrows in the scene file: keys and values as text."""
         blocks = (self.dir / "scene.toml").read_text().split("[[wind.arrow]]\n")[1:]
-        return [dict(line.split(" = ") for line in block.split("\n\n")[0].splitlines()) for block in blocks]
+        return [
+            dict(line.split(" = ") for line in block.split("\n\n")[0].splitlines())
+            for block in blocks
+        ]
 
     def frames(self, child, count=3):
-        """Waits until the picture has changed so often: the time that the editor shows goes on in each."""
+        """Waits until the picture has changed so often: the time that the editor shows goes on in
+        each."""
         for _ in range(count):
             before = self.display.pixels()
             self.wait_for(lambda: self.display.pixels() != before, child)
@@ -225,7 +307,7 @@ class View(ViewCase):
         self.wait_for(self.display.has_panel, child)
         shows = lambda colour: self.wait_for(lambda: self.display.pixels().count(colour) > 5, child)
         # Left of the editor's own window: a root that waits, then a selected arrow.
-        for x, y, colour in ((30, 220, 0x78ff8c), (90, 150, 0xff7828)):
+        for x, y, colour in ((30, 220, 0x78FF8C), (90, 150, 0xFF7828)):
             self.display.press(window, x, y)
             shows(colour)
             self.display.release(window, x, y)
@@ -233,7 +315,9 @@ class View(ViewCase):
         self.display.command(window, "s")
         self.wait_for(lambda: len(self.arrows()) == 1, child)
         arrow = self.arrows()[0]
-        self.assertTrue((self.dir / "scene.toml").read_text().startswith(before), "the rest of the file stays")
+        self.assertTrue(
+            (self.dir / "scene.toml").read_text().startswith(before), "the rest of the file stays"
+        )
         self.assertEqual(arrow["id"], '"arrow-1"')
         # Dragged to the left, the tip lies further west; undone, it is back where it was.
         self.display.press(window, 90, 150)
@@ -266,13 +350,19 @@ class View(ViewCase):
         return file.read_bytes()
 
     def test_cockpit(self):
-        """Time stands and goes a step, the day goes on, cameras have keys; the window is where it should be."""
-        self.scene(sward_cli.SCENE.replace("position = [0, 1.7, 0]", "position = [0, 1.7, 0]\nyaw_deg = 90\npitch_deg = -20\n[camera.aloft]\nposition = [5, 40, 6]"))
+        """Time stands and goes a step, the day goes on, cameras have keys; the window is where it
+        should be."""
+        self.scene(
+            sward_cli.SCENE.replace(
+                "position = [0, 1.7, 0]",
+                "position = [0, 1.7, 0]\nyaw_deg = 90\npitch_deg = -20\n[camera.aloft]\nposition = [5, 40, 6]",
+            )
+        )
         child = self.view("--window", "160x90+40+30", "--fixed-timestep", "0.1", "--samples", "1")
         self.wait_for(lambda: self.display.colours() > 100, child)
         window = self.display.windows()[-1]
         self.assertEqual(self.display.geometry(window), (40, 30, 160, 90))
-        self.assertEqual(set(self.display.pixels()[:WIDTH * 30]), {0}, "nothing above it")
+        self.assertEqual(set(self.display.pixels()[: WIDTH * 30]), {0}, "nothing above it")
         self.display.tap(window, " ")
         still = [self.shot(child, window, number) for number in (1, 2)]
         self.assertEqual(still[0], still[1], "time stands")
@@ -283,9 +373,13 @@ class View(ViewCase):
         self.assertEqual(stepped[0], stepped[1], "and it stands again")
         for key in "]]]]":
             self.display.tap(window, key)
-        self.assertNotEqual(self.shot(child, window, 5), stepped[1], "an hour later the sun is elsewhere")
+        self.assertNotEqual(
+            self.shot(child, window, 5), stepped[1], "an hour later the sun is elsewhere"
+        )
         self.display.tap(window, "p")
-        self.assertNotEqual(self.shot(child, window, 6), self.shot(child, window, 7), "time goes on")
+        self.assertNotEqual(
+            self.shot(child, window, 6), self.shot(child, window, 7), "time goes on"
+        )
         for key in "1k2k9k":  # by name: aloft, road; the ninth is none
             self.display.tap(window, key)
         self.display.tap(window, F11)
@@ -304,8 +398,11 @@ class View(ViewCase):
         (self.dir / "slow.toml").write_text(BAKE)
         self.env["XDG_CACHE_HOME"] = str(self.dir / "cache")
         child = self.view()
-        self.wait_for(lambda: self.display.windows() and children(child.pid) and self.display.has_panel(), child)
-        baker, = children(child.pid)
+        self.wait_for(
+            lambda: self.display.windows() and children(child.pid) and self.display.has_panel(),
+            child,
+        )
+        (baker,) = children(child.pid)
         before = self.display.pixels()
         self.wait_for(lambda: self.display.pixels() != before, child)  # it says that it goes on
         self.display.tap(self.display.windows()[-1], ESCAPE)
@@ -318,8 +415,18 @@ class View(ViewCase):
         self.assertEqual(sward_cli.temporaries(self.dir / "cache"), {})
 
     def test_a_kept_flight_is_the_same_at_any_rate(self):
-        """Flown with the keyboard, kept, drawn again at 30 and at 144 pictures a second, and in the viewer."""
-        child = self.view("--window", "64x36", "--record", "flight.rec", "--fixed-timestep", "1/45", "--samples", "1")
+        """Flown with the keyboard, kept, drawn again at 30 and at 144 pictures a second, and in the
+        viewer."""
+        child = self.view(
+            "--window",
+            "64x36",
+            "--record",
+            "flight.rec",
+            "--fixed-timestep",
+            "1/45",
+            "--samples",
+            "1",
+        )
         self.wait_for(lambda: self.display.colours() > 100, child)
         window = self.display.windows()[-1]
         self.display.key(window, "w", True)
@@ -336,14 +443,53 @@ class View(ViewCase):
         self.assertLess(float(flown[-1][3]), float(flown[0][3]) - 0.5, "it has flown north")
         self.assertEqual(len([line for line in lines if line[0] == "sun"]), 1)
         for rate in (30, 144):
-            self.assert_done(self.render("--replay", "flight.rec", "-o", f"{rate}-%d.png", "--fixed-timestep", f"1/{rate}", "--time", "0.25",
-                                         "--frames", f"0:{rate // 6}", "--samples", "1"))
-        pictures = [[(self.dir / f"{rate}-{rate // 6 * i}.png").read_bytes() for i in range(2)] for rate in (30, 144)]
+            self.assert_done(
+                self.render(
+                    "--replay",
+                    "flight.rec",
+                    "-o",
+                    f"{rate}-%d.png",
+                    "--fixed-timestep",
+                    f"1/{rate}",
+                    "--time",
+                    "0.25",
+                    "--frames",
+                    f"0:{rate // 6}",
+                    "--samples",
+                    "1",
+                )
+            )
+        pictures = [
+            [(self.dir / f"{rate}-{rate // 6 * i}.png").read_bytes() for i in range(2)]
+            for rate in (30, 144)
+        ]
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0][0], pictures[0][1])
         # The viewer, at the end of it.
-        self.assert_done(self.render("--replay", "flight.rec", "--time", str((len(flown) - 1) / 60), "--frames", "0:0", "-o", "end-%d.png", "--samples", "1"))
-        child = self.view("--window", "64x36", "--replay", "flight.rec", "--fixed-timestep", "0.25", "--samples", "1")
+        self.assert_done(
+            self.render(
+                "--replay",
+                "flight.rec",
+                "--time",
+                str((len(flown) - 1) / 60),
+                "--frames",
+                "0:0",
+                "-o",
+                "end-%d.png",
+                "--samples",
+                "1",
+            )
+        )
+        child = self.view(
+            "--window",
+            "64x36",
+            "--replay",
+            "flight.rec",
+            "--fixed-timestep",
+            "0.25",
+            "--samples",
+            "1",
+        )
         self.wait_for(lambda: self.display.colours() > 100, child)
         window = self.display.windows()[-1]
         ends = [self.shot(child, window, 1)]
@@ -359,20 +505,21 @@ class View(ViewCase):
         (self.dir / "none.rec").mkdir()
         (self.dir / "boat.toml").write_text("mass_kg = 900\n")
         for code, pieces, arguments in (
-                (2, ["--window", "800", "WIDTHxHEIGHT"], ["--window", "800"]),
-                (2, ["--window", "WIDTHxHEIGHT+X+Y"], ["--window", "80x60+1"]),
-                (4, ["--window", "16384"], ["--window", "99999x60"]),
-                (2, ["--window"], ["--window", "80x60", "--size", "80x60"]),
-                (2, ["--replay"], ["--replay", "a", "--record", "b"]),
-                (2, ["--fixed-timestep", "fraction"], ["--fixed-timestep", "1/0"]),
-                (3, ["torn.rec:2", "words"], ["--replay", "torn.rec"]),
-                (2, ["--drive", "car, tractor"], ["--drive", "submarine"]),
-                (2, ["--tyres-on"], ["--tyres-on", "road"]),
-                (3, ["boat.toml", "front"], ["--drive", "./boat.toml"]),
-                (5, ["missing.rec"], ["--replay", "missing.rec"]),
-                (5, ["none.rec"], ["--record", "none.rec"]),
-                (5, ["nowhere"], ["--record", "nowhere/flight.rec"]),
-                (5, ["height2.tif"], ["height2.tif"])):
+            (2, ["--window", "800", "WIDTHxHEIGHT"], ["--window", "800"]),
+            (2, ["--window", "WIDTHxHEIGHT+X+Y"], ["--window", "80x60+1"]),
+            (4, ["--window", "16384"], ["--window", "99999x60"]),
+            (2, ["--window"], ["--window", "80x60", "--size", "80x60"]),
+            (2, ["--replay"], ["--replay", "a", "--record", "b"]),
+            (2, ["--fixed-timestep", "fraction"], ["--fixed-timestep", "1/0"]),
+            (3, ["torn.rec:2", "words"], ["--replay", "torn.rec"]),
+            (2, ["--drive", "car, tractor"], ["--drive", "submarine"]),
+            (2, ["--tyres-on"], ["--tyres-on", "road"]),
+            (3, ["boat.toml", "front"], ["--drive", "./boat.toml"]),
+            (5, ["missing.rec"], ["--replay", "missing.rec"]),
+            (5, ["none.rec"], ["--record", "none.rec"]),
+            (5, ["nowhere"], ["--record", "nowhere/flight.rec"]),
+            (5, ["height2.tif"], ["height2.tif"]),
+        ):
             with self.subTest(arguments):
                 scene = [] if arguments[0].endswith(".tif") else ["scene.toml"]
                 result = self.sward("view", *scene, *arguments, env=self.env)

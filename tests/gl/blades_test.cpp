@@ -60,7 +60,8 @@ protected:
     }
     /// A blade as it lies on its tile.
     [[nodiscard]] BladeRecord laid(glm::uvec2 which) const {
-        return shared::lay_blade(list_.tiles[which.x].lie, world_.set.blades[which.y], world_.set.side_m);
+        return shared::lay_blade(list_.tiles[which.x].lie, world_.set.blades[which.y],
+                                 world_.set.side_m);
     }
     [[nodiscard]] vec3 root(glm::uvec2 which) const {
         const vec2 xz = list_.tiles[which.x].corner + vec2(laid(which).root);
@@ -96,7 +97,8 @@ protected:
         }
         int expected = 0;
         for (const glm::uvec2& item : list_.items) {
-            for (unsigned b = item.y; b < std::min(item.y + CULL_GROUP, list_.tiles[item.x].end); ++b) {
+            for (unsigned b = item.y; b < std::min(item.y + CULL_GROUP, list_.tiles[item.x].end);
+                 ++b) {
                 const BladeRecord blade = laid({item.x, b});
                 const vec3 at = root({item.x, b});
                 const vec2 band = world_.frame.handover_band;
@@ -177,7 +179,8 @@ TEST_F(Cull, OrientationTakesBladesEdgeOn) {
     std::size_t taken = 0;
     for (const glm::uvec2& s : all) {
         const vec3 view = glm::normalize(root(s) - world_.frame.eye);
-        const float along = std::abs(glm::dot(view, shared::blade_width_direction(laid(s).shape.x)));
+        const float along =
+            std::abs(glm::dot(view, shared::blade_width_direction(laid(s).shape.x)));
         if (std::abs(along - 0.9f) > 1e-4f) {
             EXPECT_EQ(left.count({s.x, s.y}), along > 0.9f ? 0u : 1u);
             taken += along > 0.9f;
@@ -206,9 +209,11 @@ TEST_F(Blades, PyramidHoldsTheFarthestOfItsPixels) {
     ASSERT_EQ(shape.width, 32);
     ASSERT_EQ(shape.height, 16);
     for (int level = 0; level < shape.mips; ++level) {
-        const int width = std::max(shape.width >> level, 1), height = std::max(shape.height >> level, 1), side = 2 << level;
+        const int width = std::max(shape.width >> level, 1),
+                  height = std::max(shape.height >> level, 1), side = 2 << level;
         std::vector<float> found(static_cast<std::size_t>(width * height));
-        glGetTextureImage(pyramid.texture().id(), level, GL_RED, GL_FLOAT, static_cast<GLsizei>(found.size() * sizeof(float)), found.data());
+        glGetTextureImage(pyramid.texture().id(), level, GL_RED, GL_FLOAT,
+                          static_cast<GLsizei>(found.size() * sizeof(float)), found.data());
         for (int y = 0; y * side < kHeight; ++y) {
             for (int x = 0; x * side < kWidth; ++x) {
                 float least = 1;
@@ -217,7 +222,8 @@ TEST_F(Blades, PyramidHoldsTheFarthestOfItsPixels) {
                         least = std::min(least, values[static_cast<std::size_t>(py * kWidth + px)]);
                     }
                 }
-                ASSERT_EQ(found[static_cast<std::size_t>(y * width + x)], least) << level << ": " << x << ", " << y;
+                ASSERT_EQ(found[static_cast<std::size_t>(y * width + x)], least)
+                    << level << ": " << x << ", " << y;
             }
         }
     }
@@ -252,7 +258,8 @@ TEST_F(Cull, WhatAWallHidesIsTakenAndNothingElse) {
             EXPECT_TRUE(behind && clip.w > kWall_m + 0.9f * reach);
         }
         // Well behind it, and away from the rims of both.
-        hidden += behind && clip.w > kWall_m + 2 * reach && clip.x < -0.3f * clip.w && clip.x > -0.7f * clip.w && std::abs(clip.y) < 0.7f * clip.w;
+        hidden += behind && clip.w > kWall_m + 2 * reach && clip.x < -0.3f * clip.w &&
+                  clip.x > -0.7f * clip.w && std::abs(clip.y) < 0.7f * clip.w;
     }
     EXPECT_GT(hidden, 20);
     EXPECT_GE(taken, hidden);
@@ -335,8 +342,10 @@ vec3 blade_surface(const shared::FrameConstants& frame, const BladeRecord& blade
     const vec3 normal = glm::normalize(glm::cross(shared::blade_tangent(v1, v2, uv.y), across));
     const float pixels =
         2 * blade.v1.w * frame.focal_px / std::max(glm::distance(centre, frame.eye), 0.05f);
-    const float thin = 1 - glm::clamp((pixels - frame.width_least_px) / frame.width_span_px, 0.0f, 1.0f);
-    const float t = glm::mix(shared::blade_outline(uv.x, uv.y, frame.looks[0].outline), uv.x, thin * thin);
+    const float thin =
+        1 - glm::clamp((pixels - frame.width_least_px) / frame.width_span_px, 0.0f, 1.0f);
+    const float t =
+        glm::mix(shared::blade_outline(uv.x, uv.y, frame.looks[0].outline), uv.x, thin * thin);
     return centre + across * (blade.v1.w * (2 * t - 1)) +
            normal * (blade.v1.w * (0.5f - std::abs(uv.x - 0.5f)) * (1 - uv.y));
 }
@@ -350,8 +359,7 @@ TEST_F(CapturedBlades, StandWhereTheCurveAndOutlineSay) {
         const BladeRecord blade = laid(which);
         const vec3 at = root(which);
         const float distance = glm::distance(at, world_.frame.lod_eye);
-        const float shell =
-            shared::pose_share(blade.root.z, distance, world_.frame.pose_band);
+        const float shell = shared::pose_share(blade.root.z, distance, world_.frame.pose_band);
         vec3 v1(blade.v1), v2(blade.v2);
         const vec2 wind = world_.wind_at(vec2(at.x, at.z));
         shared::pose_blade(

@@ -43,7 +43,9 @@ protected:
         view.draw(camera, {kWidth, kHeight});
         return view.read_picture();
     }
-    static Bytes picture(View& view, const CameraPose& pose) { return picture(view, camera_of(pose, kWidth, kHeight)); }
+    static Bytes picture(View& view, const CameraPose& pose) {
+        return picture(view, camera_of(pose, kWidth, kHeight));
+    }
 };
 
 } // namespace sward::tests

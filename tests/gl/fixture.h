@@ -126,19 +126,22 @@ inline glm::mat4 wide_view(glm::vec3 eye) {
 
 /// A small world on the GPU: ground, wind and grass, an eye over them, and constants for both.
 struct SmallWorld {
-    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in, glm::dvec3 eye_at)
+    SmallWorld(scene::Heightfield field, double relief_m, scene::DensityMask mask_in,
+               glm::dvec3 eye_at)
         : surface(std::move(field), relief_m), mask(std::move(mask_in)), clipmap(surface, mask),
           wind(breeze(), 0.1), set(synthetic_set()) {
         clipmap.update({eye_at.x, eye_at.z});
         clipmap.bind();
-        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y), std::round(eye_at.z / 64) * 64};
+        anchor = {std::round(eye_at.x / 64) * 64, std::floor(eye_at.y),
+                  std::round(eye_at.z / 64) * 64};
         const glm::vec3 eye(eye_at - anchor);
         frame.clip_from_world = wide_view(eye);
         frame.near_m = shared::kNear_m;
         frame.world_from_clip = glm::inverse(frame.clip_from_world);
         frame.eye = frame.lod_eye = eye;
         frame.focal_px = 400, frame.flutter_time = 0.25f;
-        const glm::dvec2 flat(anchor.x, anchor.z), tile = glm::floor(flat / static_cast<double>(set.side_m));
+        const glm::dvec2 flat(anchor.x, anchor.z),
+            tile = glm::floor(flat / static_cast<double>(set.side_m));
         frame.patch_offset_m = glm::vec2(flat - tile * static_cast<double>(set.side_m));
         frame.patch_side_m = set.side_m;
         frame.canopy_m = set.canopy_m;

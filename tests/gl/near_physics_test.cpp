@@ -24,10 +24,12 @@ constexpr double kGround_m = 100;
 constexpr double kStep_s = Simulation::kStep_s;
 const glm::dvec3 kEye(70.3, kGround_m + 1.6, -121.7);
 
-/// A scene whose balls roll past the eye, one of them 30 times as fast, and one that stands half in the ground.
+/// A scene whose balls roll past the eye, one of them 30 times as fast, and one that stands half in
+/// the ground.
 scene::Scene ball_scene() {
     scene::Scene scene;
-    const auto ball = [&](const char* name, double radius, glm::dvec3 from, glm::dvec3 to, double seconds) {
+    const auto ball = [&](const char* name, double radius, glm::dvec3 from, glm::dvec3 to,
+                          double seconds) {
         scene.paths[name].keys = {{0, from, 0, 0}, {seconds, to, 0, 0}};
         scene::ObjectSpec object;
         object.kind = "sphere";
@@ -49,10 +51,12 @@ protected:
     [[nodiscard]] blades::Colliders colliders(const scene::Scene& scene) const {
         return {scene, packed_, [](double, double) { return kGround_m; }};
     }
-    [[nodiscard]] Simulation simulation(double radius_m = 3, std::size_t bytes = 64ull << 20) const {
+    [[nodiscard]] Simulation simulation(double radius_m = 3,
+                                        std::size_t bytes = 64ull << 20) const {
         return Simulation(world_.set, world_.frame.wind.response, {{radius_m, bytes}, kStep_s});
     }
-    [[nodiscard]] Simulation::Inputs inputs(wind::Wind& wind, const blades::Colliders& colliders, glm::dvec3 eye = kEye) const {
+    [[nodiscard]] Simulation::Inputs inputs(wind::Wind& wind, const blades::Colliders& colliders,
+                                            glm::dvec3 eye = kEye) const {
         return {wind, world_.surface, colliders, eye, world_.anchor, 0, 0, nullptr};
     }
     static scene::WindSpec calm() {
@@ -63,12 +67,14 @@ protected:
     }
     [[nodiscard]] static std::vector<vec4> states_of(const Simulation& simulation) {
         const auto& pages = simulation.pages();
-        return simulation.pass().states().read_all<vec4>(pages.slots().size() * static_cast<std::size_t>(pages.order().patches_a_page) * CULL_GROUP);
+        return simulation.pass().states().read_all<vec4>(
+            pages.slots().size() * static_cast<std::size_t>(pages.order().patches_a_page) *
+            CULL_GROUP);
     }
     struct One {
-        std::size_t at;  ///< of its state
+        std::size_t at; ///< of its state
         shared::BladeRecord blade;
-        vec3 root;       ///< anchor-relative
+        vec3 root; ///< anchor-relative
         std::size_t patch;
     };
     /// Every blade that has a state.
@@ -82,13 +88,20 @@ protected:
                 continue;
             }
             const auto variant = static_cast<std::size_t>(page.variant);
-            const std::size_t first = world_.set.variant_begin[variant], end = world_.set.variant_begin[variant + 1];
-            const vec2 corner(glm::dvec2(page.tile) * static_cast<double>(world_.set.side_m) - glm::dvec2(world_.anchor.x, world_.anchor.z));
+            const std::size_t first = world_.set.variant_begin[variant],
+                              end = world_.set.variant_begin[variant + 1];
+            const vec2 corner(glm::dvec2(page.tile) * static_cast<double>(world_.set.side_m) -
+                              glm::dvec2(world_.anchor.x, world_.anchor.z));
             for (std::size_t n = first; n < end; ++n) {
-                const auto blade = shared::lay_blade(shared::tile_lie(page.tile), world_.set.blades[pages.order().blades[n]], world_.set.side_m);
+                const auto blade = shared::lay_blade(shared::tile_lie(page.tile),
+                                                     world_.set.blades[pages.order().blades[n]],
+                                                     world_.set.side_m);
                 const vec2 xz = corner + vec2(blade.root);
                 const std::size_t patch = slot * stride + (n - first) / CULL_GROUP;
-                out.push_back({patch * CULL_GROUP + (n - first) % CULL_GROUP, blade, {xz.x, static_cast<float>(kGround_m - world_.anchor.y), xz.y}, patch});
+                out.push_back({patch * CULL_GROUP + (n - first) % CULL_GROUP,
+                               blade,
+                               {xz.x, static_cast<float>(kGround_m - world_.anchor.y), xz.y},
+                               patch});
             }
         }
         return out;
@@ -123,12 +136,14 @@ TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
     const auto all = living(simulation);
     ASSERT_GT(all.size(), 1500u);
     std::vector<vec4> twin = states_of(simulation);
-    shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
+    shared::BladeStep rules = shared::plain_blade_step(
+        static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
     for (const One& one : all) { // they begin in the grouped pose
         const auto body = shared::set_blade_body(rules, one.blade, vec3(0));
         const glm::dvec2 at = world_.world({one.root.x, one.root.z});
         wind.wait();
-        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 0)), rules.response);
+        const vec4 begun =
+            shared::grouped_state(body, vec2(wind.at(at.x, at.y, 0)), rules.response);
         ASSERT_LT(glm::distance(begun, twin[one.at]), 1e-4f * one.blade.shape.y);
     }
     double worst = 0, moved = 0, memory = 0, deepest = 0;
@@ -136,7 +151,8 @@ TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
         const double time_s = step * kStep_s;
         simulation.advance(time_s, inputs(wind, balls));
         wind.wait();
-        const auto lists = blades::sphere_lists(simulation.pages(), world_.set.side_m, 0.3, balls.at(time_s, kStep_s), world_.anchor);
+        const auto lists = blades::sphere_lists(simulation.pages(), world_.set.side_m, 0.3,
+                                                balls.at(time_s, kStep_s), world_.anchor);
         for (const One& one : all) {
             const glm::dvec2 at = world_.world({one.root.x, one.root.z});
             std::vector<blades::StepSphere> near;
@@ -144,13 +160,15 @@ TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
                 near.push_back(lists.spheres[lists.lists[lists.lists[2 * one.patch] + n]]);
             }
             const auto body = shared::set_blade_body(rules, one.blade, one.root);
-            twin[one.at] = blades::step_blade(rules, body, one.root, vec2(wind.at(at.x, at.y, time_s)), near, twin[one.at]);
+            twin[one.at] = blades::step_blade(
+                rules, body, one.root, vec2(wind.at(at.x, at.y, time_s)), near, twin[one.at]);
             vec3 v1, v2;
             shared::simulated_pose(body, twin[one.at], v1, v2);
             for (const auto& sphere : near) {
                 const vec4 now(vec3(sphere.now_radius) - one.root, sphere.now_radius.w);
                 if (glm::length(vec3(now)) > now.w) { // one that stands in a body cannot leave it
-                    deepest = std::max<double>(deepest, shared::blade_depth(v1, v2, now) / one.blade.shape.y);
+                    deepest = std::max<double>(deepest, shared::blade_depth(v1, v2, now) /
+                                                            one.blade.shape.y);
                 }
             }
         }
@@ -158,15 +176,19 @@ TEST_F(NearPhysics, StatesEqualTheTwinOverSixHundredSteps) {
             const auto found = states_of(simulation);
             for (const One& one : all) {
                 ASSERT_NEAR(found[one.at].w, twin[one.at].w, 1e-3f);
-                const double off = glm::distance(vec3(found[one.at]), vec3(twin[one.at])) / one.blade.shape.y;
+                const double off =
+                    glm::distance(vec3(found[one.at]), vec3(twin[one.at])) / one.blade.shape.y;
                 worst = std::max<double>(worst, off);
-                moved = std::max<double>(moved, glm::length(vec3(found[one.at])) / one.blade.shape.y);
+                moved =
+                    std::max<double>(moved, glm::length(vec3(found[one.at])) / one.blade.shape.y);
                 memory = std::max<double>(memory, found[one.at].w);
             }
             ASSERT_LT(worst, 1e-4) << "step " << step;
         }
     }
-    std::printf("worst difference %.2e of a blade's length; deepest %.4f; greatest move %.2f; memory %.2f\n", worst, deepest, moved, memory);
+    std::printf("worst difference %.2e of a blade's length; deepest %.4f; greatest move %.2f; "
+                "memory %.2f\n",
+                worst, deepest, moved, memory);
     EXPECT_GT(moved, 0.5);
     EXPECT_GT(memory, 1.0);
     EXPECT_LT(deepest, 0.02);
@@ -218,7 +240,10 @@ TEST_F(NearPhysics, PagesComeAndGoWithTheEye) {
         simulation.advance(step * kStep_s, inputs(wind, balls));
     }
     const auto before = living(simulation);
-    const auto tile = simulation.pages().slots()[static_cast<std::size_t>(simulation.pages().slot_of(glm::ivec2(glm::floor(glm::dvec2(71, -119) / 2.0))))].tile;
+    const auto tile = simulation.pages()
+                          .slots()[static_cast<std::size_t>(simulation.pages().slot_of(
+                              glm::ivec2(glm::floor(glm::dvec2(71, -119) / 2.0))))]
+                          .tile;
     EXPECT_GT(simulation.pages().used(), 8u);
     // Away, and back: the page is there again, its blades begin in the grouped pose.
     const glm::dvec3 far_off = kEye + glm::dvec3(15, 0, 0);
@@ -230,13 +255,15 @@ TEST_F(NearPhysics, PagesComeAndGoWithTheEye) {
     ASSERT_GE(slot, 0);
     EXPECT_GT(simulation.pages().used(), 8u);
     const auto states = states_of(simulation);
-    const shared::BladeStep rules = shared::plain_blade_step(static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
+    const shared::BladeStep rules = shared::plain_blade_step(
+        static_cast<float>(kStep_s), world_.set.canopy_m, world_.frame.wind.response);
     wind.wait();
     int compared = 0;
     for (const One& one : living(simulation)) {
         const glm::dvec2 at = world_.world({one.root.x, one.root.z});
         const auto body = shared::set_blade_body(rules, one.blade, vec3(0));
-        const vec4 begun = shared::grouped_state(body, vec2(wind.at(at.x, at.y, 182 * kStep_s)), rules.response);
+        const vec4 begun =
+            shared::grouped_state(body, vec2(wind.at(at.x, at.y, 182 * kStep_s)), rules.response);
         ASSERT_LT(glm::distance(begun, states[one.at]), 1e-4f);
         ++compared;
     }
@@ -250,12 +277,15 @@ TEST_F(NearPhysics, PagesComeAndGoWithTheEye) {
 TEST_F(NearPhysics, ThePoolHasABound) {
     wind::Wind wind(calm(), 0.1);
     const auto none = colliders({});
-    const std::size_t page = static_cast<std::size_t>(blades::MortonOrder(world_.set).patches_a_page) * CULL_GROUP * sizeof(vec4);
+    const std::size_t page =
+        static_cast<std::size_t>(blades::MortonOrder(world_.set).patches_a_page) * CULL_GROUP *
+        sizeof(vec4);
     Simulation simulation = this->simulation(6, 5 * page + 1);
     simulation.advance(0, inputs(wind, none));
     EXPECT_EQ(simulation.pages().used(), 5u);
     EXPECT_LT(simulation.pages().reach_m(), 4);
-    EXPECT_GE(simulation.pages().slot_of(glm::ivec2(glm::floor(glm::dvec2(kEye.x, kEye.z) / 2.0))), 0); // the nearest have them
+    EXPECT_GE(simulation.pages().slot_of(glm::ivec2(glm::floor(glm::dvec2(kEye.x, kEye.z) / 2.0))),
+              0); // the nearest have them
     EXPECT_LE(simulation.pass().bytes(), world_.set.blades.size() * 96 + 5 * page + 4096);
 }
 
@@ -311,13 +341,16 @@ TEST_F(NearPhysics, EachPatchIsInTheListOfWhatItMeets) {
     balls.set_host_spheres({{{70, kGround_m + 0.2, -121}, 0.2}}, kStep_s);
     const glm::dvec3 eye = kEye + glm::dvec3(2, 0, 0);
     simulation.advance(kStep_s, inputs(wind, balls, eye));
-    const auto lists = blades::sphere_lists(simulation.pages(), world_.set.side_m, 0.3, balls.at(kStep_s, kStep_s), world_.anchor);
-    const auto begun = listed(shared::kListNew), met = listed(shared::kListColliding), free = listed(shared::kListFree);
+    const auto lists = blades::sphere_lists(simulation.pages(), world_.set.side_m, 0.3,
+                                            balls.at(kStep_s, kStep_s), world_.anchor);
+    const auto begun = listed(shared::kListNew), met = listed(shared::kListColliding),
+               free = listed(shared::kListFree);
     std::set<std::uint32_t> patches;
     for (const One& one : living(simulation)) {
         const auto patch = static_cast<std::uint32_t>(one.patch);
         patches.insert(patch);
-        EXPECT_EQ(begun.contains(patch) + met.contains(patch) + free.contains(patch), 1) << patch; // the wind blows: all are awake
+        EXPECT_EQ(begun.contains(patch) + met.contains(patch) + free.contains(patch), 1)
+            << patch; // the wind blows: all are awake
         if (!begun.contains(patch)) {
             EXPECT_EQ(met.contains(patch), lists.lists[2 * one.patch + 1] > 0) << patch;
         }
@@ -331,7 +364,8 @@ TEST_F(NearPhysics, EachPatchIsInTheListOfWhatItMeets) {
 TEST_F(NearPhysics, OneProgramForAllGivesTheSameBits) {
     wind::Wind wind(SmallWorld::breeze(), 0.1);
     const auto balls = colliders(ball_scene());
-    Simulation three = simulation(), one(world_.set, world_.frame.wind.response, {{3, 64ull << 20}, kStep_s, blades::StepPrograms::kOne});
+    Simulation three = simulation(), one(world_.set, world_.frame.wind.response,
+                                         {{3, 64ull << 20}, kStep_s, blades::StepPrograms::kOne});
     for (int step = 0; step <= 90; ++step) {
         three.advance(step * kStep_s, inputs(wind, balls));
         one.advance(step * kStep_s, inputs(wind, balls));
@@ -341,7 +375,8 @@ TEST_F(NearPhysics, OneProgramForAllGivesTheSameBits) {
 }
 
 /// Times a run of steps on what draws here, which in software is the work; best of three.
-double milliseconds_a_step(Simulation& simulation, const Simulation::Inputs& inputs, int first, int steps) {
+double milliseconds_a_step(Simulation& simulation, const Simulation::Inputs& inputs, int first,
+                           int steps) {
     double best = 1e30;
     for (int run = 0; run < 3; ++run) {
         glFinish();
@@ -350,7 +385,10 @@ double milliseconds_a_step(Simulation& simulation, const Simulation::Inputs& inp
             simulation.advance((first + steps * run + step) * kStep_s, inputs);
         }
         glFinish();
-        best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count() / steps);
+        best = std::min(best, std::chrono::duration<double, std::milli>(
+                                  std::chrono::steady_clock::now() - start)
+                                      .count() /
+                                  steps);
     }
     return best;
 }
@@ -365,17 +403,23 @@ TEST_F(NearPhysics, AThousandSpheresCostLittleAndTenThousandWork) {
     std::printf("%zu blades: %.2f ms a step without colliders\n", all.size(), none_ms);
     int first = 31;
     for (const int count : {1000, 10000}) {
-        std::vector<HostSphere> spheres; // a body as packing makes one: many overlapping, over the grass around the eye
+        std::vector<HostSphere>
+            spheres; // a body as packing makes one: many overlapping, over the grass around the eye
         const int side = static_cast<int>(std::sqrt(count / 4));
         for (int n = 0; n < count; ++n) {
             const int column = n / 4 % side, row = n / 4 / side;
-            spheres.push_back({{kEye.x + 6.0 * column / side - 3, kGround_m + 0.1 + 0.12 * (n % 4), kEye.z + 3.0 * row / side - 4}, 0.1});
+            spheres.push_back({{kEye.x + 6.0 * column / side - 3, kGround_m + 0.1 + 0.12 * (n % 4),
+                                kEye.z + 3.0 * row / side - 4},
+                               0.1});
         }
         balls.set_host_spheres(spheres, first * kStep_s);
         simulation.advance(first * kStep_s, inputs(wind, balls));
-        const double ms = milliseconds_a_step(simulation, inputs(wind, balls), first + 1, count > 1000 ? 1 : 5);
-        const double pairs_a_patch = static_cast<double>(simulation.sphere_pairs()) * CULL_GROUP / static_cast<double>(all.size());
-        std::printf("%d spheres: %.2f ms a step, %.2f times; %.2f spheres a patch\n", count, ms, ms / none_ms, pairs_a_patch);
+        const double ms =
+            milliseconds_a_step(simulation, inputs(wind, balls), first + 1, count > 1000 ? 1 : 5);
+        const double pairs_a_patch = static_cast<double>(simulation.sphere_pairs()) * CULL_GROUP /
+                                     static_cast<double>(all.size());
+        std::printf("%d spheres: %.2f ms a step, %.2f times; %.2f spheres a patch\n", count, ms,
+                    ms / none_ms, pairs_a_patch);
         // The work that a broad phase leaves: each patch is tested against a few of them, not all.
         EXPECT_LT(pairs_a_patch, 0.05 * count);
         float memory = 0;
@@ -391,7 +435,8 @@ TEST_F(NearPhysics, AThousandSpheresCostLittleAndTenThousandWork) {
 TEST_F(NearPhysics, CollidersThatCannotBeAreRefused) {
     auto balls = colliders({});
     const double nan = std::nan("");
-    for (const HostSphere& bad : {HostSphere{{0, 0, 0}, -1}, HostSphere{{0, 0, 0}, 0}, HostSphere{{0, 0, 0}, nan}, HostSphere{{nan, 0, 0}, 1}}) {
+    for (const HostSphere& bad : {HostSphere{{0, 0, 0}, -1}, HostSphere{{0, 0, 0}, 0},
+                                  HostSphere{{0, 0, 0}, nan}, HostSphere{{nan, 0, 0}, 1}}) {
         EXPECT_THROW(balls.set_host_spheres({bad}, 0), base::Error);
     }
     EXPECT_FALSE(balls.any()); // none of them entered

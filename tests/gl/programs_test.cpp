@@ -21,37 +21,38 @@ struct Variant {
 };
 
 std::vector<Variant> variants() {
-    std::vector<Variant> all = {{{"terrain/clipmap_height.comp"}, {}},
-                                {{"terrain/clipmap_surface.comp"}, {}},
-                                {{"terrain/block_samples.comp"}, {}},
-                                {{"terrain/block_samples.comp"}, {"FINE_GROUND"}},
-                                {{"terrain/terrain.vert", "terrain/terrain.frag"}, {"FINE_GROUND", "AOV"}},
-                                {{"shells/march.vert", "shells/march_choose.frag"}, {"FINE_GROUND"}},
-                                {{"shells/march.vert", "shells/march.frag"}, {"FINE_GROUND", "CREST"}},
-                                {{"blades/cull.comp"}, {}},
-                                {{"blades/choose.comp"}, {}},
-                                {{"blades/gather.comp"}, {}},
-                                {{"blades/sift.comp"}, {}},
-                                {{"blades/depth_pyramid.comp"}, {}},
-                                {{"blades/depth_pyramid.comp"}, {"FIRST"}},
-                                {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
-                                {{"blades/wake.comp"}, {}},
-                                {{"blades/physics.comp"}, {"PHYSICS_FREE"}},
-                                {{"blades/physics.comp"}, {"PHYSICS_COLLIDING"}},
-                                {{"blades/physics.comp"}, {"PHYSICS_NEW"}},
-                                {{"blades/physics.comp"}, {"PHYSICS_ALL"}},
-                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_FREE"}},
-                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_COLLIDING"}},
-                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
-                                {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
-                                {{"blades/wake.comp"}, {"SURFACE"}},
-                                {{"tracks/change.comp"}, {}},
-                                {{"tracks/advance.comp"}, {}},
-                                {{"tracks/advance.comp"}, {"PRESS_ONLY"}},
-                                {{"tracks/rebase.comp"}, {}},
-                                {{"tracks/show.comp"}, {}},
-                                {{"render/screen.vert", "render/tone_map.frag"}, {}},
-                                {{"render/screen.vert", "render/hand_out.frag"}, {}}};
+    std::vector<Variant> all = {
+        {{"terrain/clipmap_height.comp"}, {}},
+        {{"terrain/clipmap_surface.comp"}, {}},
+        {{"terrain/block_samples.comp"}, {}},
+        {{"terrain/block_samples.comp"}, {"FINE_GROUND"}},
+        {{"terrain/terrain.vert", "terrain/terrain.frag"}, {"FINE_GROUND", "AOV"}},
+        {{"shells/march.vert", "shells/march_choose.frag"}, {"FINE_GROUND"}},
+        {{"shells/march.vert", "shells/march.frag"}, {"FINE_GROUND", "CREST"}},
+        {{"blades/cull.comp"}, {}},
+        {{"blades/choose.comp"}, {}},
+        {{"blades/gather.comp"}, {}},
+        {{"blades/sift.comp"}, {}},
+        {{"blades/depth_pyramid.comp"}, {}},
+        {{"blades/depth_pyramid.comp"}, {"FIRST"}},
+        {{"blades/depth_pyramid.comp"}, {"FIRST", "MULTISAMPLED"}},
+        {{"blades/wake.comp"}, {}},
+        {{"blades/physics.comp"}, {"PHYSICS_FREE"}},
+        {{"blades/physics.comp"}, {"PHYSICS_COLLIDING"}},
+        {{"blades/physics.comp"}, {"PHYSICS_NEW"}},
+        {{"blades/physics.comp"}, {"PHYSICS_ALL"}},
+        {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_FREE"}},
+        {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_COLLIDING"}},
+        {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_NEW"}},
+        {{"blades/physics.comp"}, {"SURFACE", "PHYSICS_ALL"}},
+        {{"blades/wake.comp"}, {"SURFACE"}},
+        {{"tracks/change.comp"}, {}},
+        {{"tracks/advance.comp"}, {}},
+        {{"tracks/advance.comp"}, {"PRESS_ONLY"}},
+        {{"tracks/rebase.comp"}, {}},
+        {{"tracks/show.comp"}, {}},
+        {{"render/screen.vert", "render/tone_map.frag"}, {}},
+        {{"render/screen.vert", "render/hand_out.frag"}, {}}};
     const std::vector<std::vector<fs::path>> with_aov = {
         {"terrain/terrain.vert", "terrain/terrain.frag"},
         {"blades/blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"},
@@ -64,13 +65,16 @@ std::vector<Variant> variants() {
         all.push_back({stages, {}});
         all.push_back({stages, {"AOV"}});
     }
-    const std::vector<fs::path> surface = {"blades/surface_blade.vert", "blades/blade.tesc", "blades/blade.tese", "blades/blade.frag"};
+    const std::vector<fs::path> surface = {"blades/surface_blade.vert", "blades/blade.tesc",
+                                           "blades/blade.tese", "blades/blade.frag"};
     all.push_back({surface, {"SURFACE"}});
     all.push_back({surface, {"SURFACE", "AOV"}});
     all.push_back({{"blades/cull.comp"}, {"SURFACE"}});
     // What a grid is, open or periodic, decides about the passes that run over both.
-    for (const char* pass : {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots", "poisson_guess", "poisson_relax",
-                             "poisson_restrict", "poisson_solve", "poisson_update", "poisson_weights", "project", "publish", "vorticity"}) {
+    for (const char* pass :
+         {"advect", "divergence", "poisson_begin", "poisson_direction", "poisson_dots",
+          "poisson_guess", "poisson_relax", "poisson_restrict", "poisson_solve", "poisson_update",
+          "poisson_weights", "project", "publish", "vorticity"}) {
         all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
         all.push_back({{std::string("wind/") + pass + ".comp"}, {"PERIODIC"}});
     }
@@ -78,8 +82,9 @@ std::vector<Variant> variants() {
     all.push_back({{"wind/advect.comp"}, {"PERIODIC", "CONFINEMENT"}});
     all.push_back({{"wind/poisson_relax.comp"}, {"CORRECT"}});
     all.push_back({{"wind/poisson_relax.comp"}, {"PERIODIC", "CORRECT"}});
-    for (const char* pass : {"enter", "poisson_scalars", "solids", "forces", "published_advect", "published_confine",
-                             "published_divergence", "published_jacobi", "published_project"}) {
+    for (const char* pass :
+         {"enter", "poisson_scalars", "solids", "forces", "published_advect", "published_confine",
+          "published_divergence", "published_jacobi", "published_project"}) {
         all.push_back({{std::string("wind/") + pass + ".comp"}, {}});
     }
     all.push_back({{"shells/canopy.vert", "shells/canopy.frag"}, {}});
@@ -90,9 +95,11 @@ std::vector<Variant> variants() {
     for (const char* kind : {"COLUMNS", "SLABS"}) {
         for (const char* rays : {"CREST", "PLAIN"}) {
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays}});
-            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV", "NO_LAND"}});
+            all.push_back(
+                {{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV", "NO_LAND"}});
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE"}});
-            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE", "AOV"}});
+            all.push_back(
+                {{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE", "AOV"}});
         }
     }
     all.push_back({{"wind/forces.comp"}, {"INFLOW"}});
@@ -153,14 +160,11 @@ TEST_F(Programs, TheVariantsHoldEveryEntryPoint) {
 }
 
 TEST_F(Programs, BlocksAreBoundByTheirNames) {
-    const std::map<std::string, GLint> uniform_blocks = {{"FrameBlock", BIND_FRAME},
-                                                         {"SurfaceBlock", BIND_SURFACE},
-                                                         {"WindGridBlock", BIND_WIND_GRID},
-                                                         {"WindFieldBlock", BIND_WIND_FIELD},
-                                                         {"PhysicsBlock", BIND_PHYSICS},
-                                                         {"SampleBlock", BIND_SAMPLES},
-                                                         {"MarchBlock", BIND_MARCH},
-                                                         {"SharesBlock", BIND_FAR_SHARES}};
+    const std::map<std::string, GLint> uniform_blocks = {
+        {"FrameBlock", BIND_FRAME},        {"SurfaceBlock", BIND_SURFACE},
+        {"WindGridBlock", BIND_WIND_GRID}, {"WindFieldBlock", BIND_WIND_FIELD},
+        {"PhysicsBlock", BIND_PHYSICS},    {"SampleBlock", BIND_SAMPLES},
+        {"MarchBlock", BIND_MARCH},        {"SharesBlock", BIND_FAR_SHARES}};
     // The wind's passes run before all others and share their binding points among themselves.
     const std::map<std::string, GLint> storage_blocks = {
         {"WindU", BIND_WIND_U},
@@ -200,23 +204,37 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
         {"Footprints", BIND_WIND_FOOTPRINTS},
         {"Inflow", BIND_WIND_INFLOW},
 
-        {"TrackBends", BIND_TRACK_BENDS}, {"TrackChanges", BIND_TRACK_CHANGES},
-        {"TrackTable", BIND_TRACK_TABLE}, {"TrackWork", BIND_TRACK_WORK},
-        {"TrackPrints", BIND_TRACK_PRINTS}, {"TrackShown", BIND_TRACK_SHOWN},
+        {"TrackBends", BIND_TRACK_BENDS},
+        {"TrackChanges", BIND_TRACK_CHANGES},
+        {"TrackTable", BIND_TRACK_TABLE},
+        {"TrackWork", BIND_TRACK_WORK},
+        {"TrackPrints", BIND_TRACK_PRINTS},
+        {"TrackShown", BIND_TRACK_SHOWN},
 
-        {"Records", BIND_PHYSICS_BLADES}, {"Pages", BIND_PHYSICS_PAGES},
-        {"States", BIND_PHYSICS_STATES},  {"Patches", BIND_PHYSICS_PATCHES},
-        {"Awake", BIND_PHYSICS_AWAKE},    {"Dispatch", BIND_PHYSICS_DISPATCH},
-        {"Lists", BIND_PHYSICS_LISTS},    {"Spheres", BIND_PHYSICS_SPHERES},
-        {"Places", BIND_BLADE_PLACES},    {"Slots", BIND_BLADE_PLACES},
+        {"Records", BIND_PHYSICS_BLADES},
+        {"Pages", BIND_PHYSICS_PAGES},
+        {"States", BIND_PHYSICS_STATES},
+        {"Patches", BIND_PHYSICS_PATCHES},
+        {"Awake", BIND_PHYSICS_AWAKE},
+        {"Dispatch", BIND_PHYSICS_DISPATCH},
+        {"Lists", BIND_PHYSICS_LISTS},
+        {"Spheres", BIND_PHYSICS_SPHERES},
+        {"Places", BIND_BLADE_PLACES},
+        {"Slots", BIND_BLADE_PLACES},
 
-        {"Blades", BIND_BLADES},          {"SurfaceBlades", BIND_BLADES},
+        {"Blades", BIND_BLADES},
+        {"SurfaceBlades", BIND_BLADES},
         {"Tiles", BIND_BLADE_TILES},
-        {"Items", BIND_CULL_ITEMS},       {"Survivors", BIND_SURVIVORS},
-        {"Commands", BIND_DRAW_COMMANDS}, {"Totals", BIND_CULL_TOTAL},
-        {"ChoiceItems", BIND_CHOICE_ITEMS}, {"ChoiceMasks", BIND_CHOICE_MASKS},
-        {"ChoiceTotals", BIND_CHOICE_TOTAL}, {"GatherMasks", BIND_GATHER_MASKS},
-        {"Blocks", BIND_TERRAIN_BLOCKS},  {"Instances", BIND_FAR_INSTANCES},
+        {"Items", BIND_CULL_ITEMS},
+        {"Survivors", BIND_SURVIVORS},
+        {"Commands", BIND_DRAW_COMMANDS},
+        {"Totals", BIND_CULL_TOTAL},
+        {"ChoiceItems", BIND_CHOICE_ITEMS},
+        {"ChoiceMasks", BIND_CHOICE_MASKS},
+        {"ChoiceTotals", BIND_CHOICE_TOTAL},
+        {"GatherMasks", BIND_GATHER_MASKS},
+        {"Blocks", BIND_TERRAIN_BLOCKS},
+        {"Instances", BIND_FAR_INSTANCES},
         {"Samples", BIND_BLOCK_SAMPLES}};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
@@ -240,8 +258,11 @@ TEST_F(Programs, BlocksAreBoundByTheirNames) {
 }
 
 TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
-    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT}, {"clip_surface", TEX_CLIP_SURFACE}, {"heights", TEX_CLIP_HEIGHT},
-                                                {"far_images", TEX_FAR_IMAGES}, {"record_texels", TEX_PHYSICS_BLADES},
+    const std::map<std::string, GLint> units = {{"clip_height", TEX_CLIP_HEIGHT},
+                                                {"clip_surface", TEX_CLIP_SURFACE},
+                                                {"heights", TEX_CLIP_HEIGHT},
+                                                {"far_images", TEX_FAR_IMAGES},
+                                                {"record_texels", TEX_PHYSICS_BLADES},
                                                 {"far_shapes", TEX_FAR_SHAPES},
                                                 {"densities", TEX_MARCH_DENSITY},
                                                 {"fibres", TEX_MARCH_FIBRES},
@@ -257,7 +278,9 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"far_appearance", TEX_FAR_APPEARANCE},
                                                 {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
-                                                {"mask", TEX_MASK}, {"land_cover", TEX_LAND_COVER}, {"land_ground", TEX_LAND_GROUND},
+                                                {"mask", TEX_MASK},
+                                                {"land_cover", TEX_LAND_COVER},
+                                                {"land_ground", TEX_LAND_GROUND},
                                                 {"land_shadow", TEX_LAND_SHADOW},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},
@@ -276,8 +299,9 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"host_scene_depth", TEX_RESOLVE_DEPTH},
                                                 {"resolved_color", TEX_RESOLVE_COLOR},
                                                 {"resolved_data", TEX_RESOLVE_DATA}};
-    const std::set<GLint> samplers = {GL_SAMPLER_2D, GL_SAMPLER_2D_ARRAY, GL_SAMPLER_2D_MULTISAMPLE,
-                                      GL_SAMPLER_BUFFER, GL_INT_SAMPLER_BUFFER, GL_UNSIGNED_INT_SAMPLER_BUFFER};
+    const std::set<GLint> samplers = {
+        GL_SAMPLER_2D,     GL_SAMPLER_2D_ARRAY,   GL_SAMPLER_2D_MULTISAMPLE,
+        GL_SAMPLER_BUFFER, GL_INT_SAMPLER_BUFFER, GL_UNSIGNED_INT_SAMPLER_BUFFER};
     std::set<std::string> seen;
     for (const Variant& variant : variants()) {
         const gl::Program program = build(variant);
@@ -320,9 +344,11 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
             glm::ivec3 size(0);
             glGetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, &size.x);
             const std::string& name = program.name();
-            if (name.starts_with("wind/")) { // one thread a cell, a tile's cell, or a share of one level
+            if (name.starts_with(
+                    "wind/")) { // one thread a cell, a tile's cell, or a share of one level
                 const bool tile = name == "wind/forces.comp" || name == "wind/solids.comp";
-                const bool alone = name == "wind/poisson_solve.comp" || name == "wind/poisson_scalars.comp" ||
+                const bool alone = name == "wind/poisson_solve.comp" ||
+                                   name == "wind/poisson_scalars.comp" ||
                                    name == "wind/ambient_totals.comp";
                 EXPECT_EQ(size, tile    ? glm::ivec3(WIND_TILE, WIND_TILE, 1)
                                 : alone ? glm::ivec3(WIND_SOLVE_GROUP, 1, 1)
@@ -333,7 +359,8 @@ TEST_F(Programs, WorkgroupsAndOutputsAreTheHeadersOnes) {
             EXPECT_EQ(size, groups.at(program.name())) << program.name();
             continue;
         }
-        if (program.name().find("canopy.") != std::string::npos || program.name() == "shells/march_choose.frag") {
+        if (program.name().find("canopy.") != std::string::npos ||
+            program.name() == "shells/march_choose.frag") {
             continue; // what they draw is for the march, not a picture
         }
         EXPECT_EQ(glGetFragDataLocation(program.id(), "out_color"), OUT_COLOR) << program.name();
@@ -433,8 +460,10 @@ TEST_F(ShaderErrors, NameTheLineOfAMissingInclude) {
 }
 
 TEST_F(ShaderErrors, AUniformThatNoSourceDeclaresIsNamed) {
-    shaders_.write("uniforms.comp", "layout(local_size_x = 1) in;\n// uniform float remark;\nuniform float weights[2], left_out;\n#ifdef NEVER\n"
-                                    "uniform int variant_only;\n#endif\nlayout(std430, binding = 0) buffer Out { float result; };\n"
+    shaders_.write("uniforms.comp", "layout(local_size_x = 1) in;\n// uniform float "
+                                    "remark;\nuniform float weights[2], left_out;\n#ifdef NEVER\n"
+                                    "uniform int variant_only;\n#endif\nlayout(std430, binding = "
+                                    "0) buffer Out { float result; };\n"
                                     "void main() { float local = weights[0]; result = local; }\n");
     const gl::Program program("weigher", {"uniforms.comp"});
     EXPECT_EQ(error_of([&] { program.set("left_out", 1.0f); }), "no error");

@@ -41,7 +41,8 @@ FrameSettings small_frame() {
 
 class Render : public GlTest {
 protected:
-    static render::Moment view_from(const Renderer& renderer, glm::dvec3 position, double pitch_deg) {
+    static render::Moment view_from(const Renderer& renderer, glm::dvec3 position,
+                                    double pitch_deg) {
         scene::Pose pose;
         pose.position = position;
         pose.pitch_deg = pitch_deg;
@@ -195,7 +196,8 @@ TEST_F(Render, BlockShapesDrawWhatTheirTexelsDecodeTo) {
                                        std::pair{&level.slices, &level.slices_shape}}) {
             *shapes = grass::empty_shapes(*planes);
             for (int i = 0; i < planes->layers / shared::kPlanes; ++i) {
-                grass::compress_shape(*planes, i, *shapes); // the planes become what the blocks decode to
+                grass::compress_shape(*planes, i,
+                                      *shapes); // the planes become what the blocks decode to
             }
         }
     }
@@ -230,8 +232,10 @@ TEST_F(Render, StatsNameEveryPassAndCount) {
         EXPECT_LT(pass.gpu_ms, 60000);
         EXPECT_GE(pass.cpu_ms, 0);
     }
-    EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "land shadow", "select blocks", "block samples", "terrain",
-                                               "depth pyramid", "select blades", "cull blades", "draw blades", "sky", "resolve", "far light",
+    EXPECT_EQ(names, (std::vector<std::string>{"wind", "physics", "clipmap", "land shadow",
+                                               "select blocks", "block samples", "terrain",
+                                               "depth pyramid", "select blades", "cull blades",
+                                               "draw blades", "sky", "resolve", "far light",
                                                "canopy", "far field", "tone map"}));
     EXPECT_GT(stats.blades_simulated, 1000u);
     EXPECT_GT(stats.physics_bytes, 16 * stats.blades_simulated);
@@ -269,7 +273,8 @@ TEST_F(Render, TiersDrawWhatTheirNamesSay) {
     EXPECT_EQ(tiers_of(Tiers::kBlades), (std::set<int>{0, 1, 2, 7}));
     EXPECT_EQ(tiers_of(Tiers::kReference), (std::set<int>{0, 1, 2, 7}));
     const auto shells = tiers_of(Tiers::kShells);
-    EXPECT_TRUE((shells.count(3) || shells.count(4) || shells.count(5)) && !shells.count(2) && !shells.count(1));
+    EXPECT_TRUE((shells.count(3) || shells.count(4) || shells.count(5)) && !shells.count(2) &&
+                !shells.count(1));
 }
 
 TEST_F(Render, LeavesNothingBehind) {

@@ -21,27 +21,87 @@ class Dumper {
 public:
     Dump take() {
         dump_.clear();
-        for (const GLenum cap : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_DEPTH_CLAMP, GL_DITHER, GL_MULTISAMPLE,
-                                 GL_POLYGON_OFFSET_FILL, GL_POLYGON_OFFSET_LINE, GL_POLYGON_OFFSET_POINT, GL_POLYGON_SMOOTH, GL_LINE_SMOOTH, GL_COLOR_LOGIC_OP,
-                                 GL_RASTERIZER_DISCARD, GL_PRIMITIVE_RESTART, GL_PRIMITIVE_RESTART_FIXED_INDEX, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                                 GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_SAMPLE_SHADING, GL_FRAMEBUFFER_SRGB, GL_PROGRAM_POINT_SIZE,
-                                 GL_TEXTURE_CUBE_MAP_SEAMLESS, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE3, GL_CLIP_DISTANCE7}) {
+        for (const GLenum cap : {GL_BLEND,
+                                 GL_CULL_FACE,
+                                 GL_DEPTH_TEST,
+                                 GL_STENCIL_TEST,
+                                 GL_SCISSOR_TEST,
+                                 GL_DEPTH_CLAMP,
+                                 GL_DITHER,
+                                 GL_MULTISAMPLE,
+                                 GL_POLYGON_OFFSET_FILL,
+                                 GL_POLYGON_OFFSET_LINE,
+                                 GL_POLYGON_OFFSET_POINT,
+                                 GL_POLYGON_SMOOTH,
+                                 GL_LINE_SMOOTH,
+                                 GL_COLOR_LOGIC_OP,
+                                 GL_RASTERIZER_DISCARD,
+                                 GL_PRIMITIVE_RESTART,
+                                 GL_PRIMITIVE_RESTART_FIXED_INDEX,
+                                 GL_SAMPLE_ALPHA_TO_COVERAGE,
+                                 GL_SAMPLE_ALPHA_TO_ONE,
+                                 GL_SAMPLE_COVERAGE,
+                                 GL_SAMPLE_MASK,
+                                 GL_SAMPLE_SHADING,
+                                 GL_FRAMEBUFFER_SRGB,
+                                 GL_PROGRAM_POINT_SIZE,
+                                 GL_TEXTURE_CUBE_MAP_SEAMLESS,
+                                 GL_CLIP_DISTANCE0,
+                                 GL_CLIP_DISTANCE3,
+                                 GL_CLIP_DISTANCE7}) {
             put("enabled", cap, {static_cast<double>(glIsEnabled(cap))});
         }
-        for (const GLenum name : {GL_CURRENT_PROGRAM, GL_VERTEX_ARRAY_BINDING, GL_DRAW_FRAMEBUFFER_BINDING, GL_READ_FRAMEBUFFER_BINDING, GL_RENDERBUFFER_BINDING,
-                                  GL_ACTIVE_TEXTURE, GL_ARRAY_BUFFER_BINDING, GL_COPY_READ_BUFFER_BINDING, GL_COPY_WRITE_BUFFER_BINDING, GL_DRAW_INDIRECT_BUFFER_BINDING,
-                                  GL_DISPATCH_INDIRECT_BUFFER_BINDING, GL_PIXEL_PACK_BUFFER_BINDING, GL_PIXEL_UNPACK_BUFFER_BINDING, GL_QUERY_BUFFER_BINDING,
-                                  GL_UNIFORM_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_BINDING, GL_PROGRAM_PIPELINE_BINDING, GL_CULL_FACE_MODE, GL_FRONT_FACE, GL_DEPTH_FUNC,
-                                  GL_DEPTH_WRITEMASK, GL_CLIP_ORIGIN, GL_CLIP_DEPTH_MODE, GL_PROVOKING_VERTEX, GL_PATCH_VERTICES, GL_LOGIC_OP_MODE,
-                                  GL_PRIMITIVE_RESTART_INDEX, GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_WRITEMASK, GL_STENCIL_CLEAR_VALUE, GL_UNPACK_ALIGNMENT,
-                                  GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,
-                                  GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES, GL_SAMPLE_COVERAGE_INVERT}) {
+        for (const GLenum name : {GL_CURRENT_PROGRAM,
+                                  GL_VERTEX_ARRAY_BINDING,
+                                  GL_DRAW_FRAMEBUFFER_BINDING,
+                                  GL_READ_FRAMEBUFFER_BINDING,
+                                  GL_RENDERBUFFER_BINDING,
+                                  GL_ACTIVE_TEXTURE,
+                                  GL_ARRAY_BUFFER_BINDING,
+                                  GL_COPY_READ_BUFFER_BINDING,
+                                  GL_COPY_WRITE_BUFFER_BINDING,
+                                  GL_DRAW_INDIRECT_BUFFER_BINDING,
+                                  GL_DISPATCH_INDIRECT_BUFFER_BINDING,
+                                  GL_PIXEL_PACK_BUFFER_BINDING,
+                                  GL_PIXEL_UNPACK_BUFFER_BINDING,
+                                  GL_QUERY_BUFFER_BINDING,
+                                  GL_UNIFORM_BUFFER_BINDING,
+                                  GL_SHADER_STORAGE_BUFFER_BINDING,
+                                  GL_PROGRAM_PIPELINE_BINDING,
+                                  GL_CULL_FACE_MODE,
+                                  GL_FRONT_FACE,
+                                  GL_DEPTH_FUNC,
+                                  GL_DEPTH_WRITEMASK,
+                                  GL_CLIP_ORIGIN,
+                                  GL_CLIP_DEPTH_MODE,
+                                  GL_PROVOKING_VERTEX,
+                                  GL_PATCH_VERTICES,
+                                  GL_LOGIC_OP_MODE,
+                                  GL_PRIMITIVE_RESTART_INDEX,
+                                  GL_STENCIL_FUNC,
+                                  GL_STENCIL_REF,
+                                  GL_STENCIL_WRITEMASK,
+                                  GL_STENCIL_CLEAR_VALUE,
+                                  GL_UNPACK_ALIGNMENT,
+                                  GL_UNPACK_ROW_LENGTH,
+                                  GL_UNPACK_SKIP_ROWS,
+                                  GL_UNPACK_SKIP_PIXELS,
+                                  GL_UNPACK_IMAGE_HEIGHT,
+                                  GL_UNPACK_SKIP_IMAGES,
+                                  GL_UNPACK_SWAP_BYTES,
+                                  GL_PACK_ALIGNMENT,
+                                  GL_PACK_ROW_LENGTH,
+                                  GL_PACK_SKIP_ROWS,
+                                  GL_PACK_SKIP_PIXELS,
+                                  GL_PACK_SWAP_BYTES,
+                                  GL_SAMPLE_COVERAGE_INVERT}) {
             GLint value = 0;
             glGetIntegerv(name, &value);
             put("integer", name, {static_cast<double>(value)});
         }
-        for (const GLenum name : {GL_POLYGON_OFFSET_FACTOR, GL_POLYGON_OFFSET_UNITS, GL_LINE_WIDTH, GL_POINT_SIZE, GL_MIN_SAMPLE_SHADING_VALUE, GL_SAMPLE_COVERAGE_VALUE,
-                                  GL_DEPTH_CLEAR_VALUE}) {
+        for (const GLenum name :
+             {GL_POLYGON_OFFSET_FACTOR, GL_POLYGON_OFFSET_UNITS, GL_LINE_WIDTH, GL_POINT_SIZE,
+              GL_MIN_SAMPLE_SHADING_VALUE, GL_SAMPLE_COVERAGE_VALUE, GL_DEPTH_CLEAR_VALUE}) {
             GLfloat value = 0;
             glGetFloatv(name, &value);
             put("float", name, {static_cast<double>(value)});
@@ -58,7 +118,9 @@ public:
     }
 
 private:
-    void put(const std::string& kind, GLuint which, std::vector<double> values) { dump_[kind + " " + std::to_string(which)] = std::move(values); }
+    void put(const std::string& kind, GLuint which, std::vector<double> values) {
+        dump_[kind + " " + std::to_string(which)] = std::move(values);
+    }
     void integers(const char* kind, GLuint index, std::initializer_list<GLenum> names) {
         std::vector<double> values;
         for (const GLenum name : names) {
@@ -72,11 +134,21 @@ private:
         for (GLuint i = 0; i < 8; ++i) {
             GLboolean mask[4] = {};
             glGetBooleani_v(GL_COLOR_WRITEMASK, i, mask);
-            put("draw buffer", i, {static_cast<double>(glIsEnabledi(GL_BLEND, i)), static_cast<double>(mask[0]), static_cast<double>(mask[1]), static_cast<double>(mask[2]), static_cast<double>(mask[3])});
-            integers("blend", i, {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA, GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA});
-            integers("image", i, {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED, GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT});
-            integers("uniform buffer", i, {GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE});
-            integers("storage buffer", i, {GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START, GL_SHADER_STORAGE_BUFFER_SIZE});
+            put("draw buffer", i,
+                {static_cast<double>(glIsEnabledi(GL_BLEND, i)), static_cast<double>(mask[0]),
+                 static_cast<double>(mask[1]), static_cast<double>(mask[2]),
+                 static_cast<double>(mask[3])});
+            integers("blend", i,
+                     {GL_BLEND_SRC_RGB, GL_BLEND_DST_RGB, GL_BLEND_SRC_ALPHA, GL_BLEND_DST_ALPHA,
+                      GL_BLEND_EQUATION_RGB, GL_BLEND_EQUATION_ALPHA});
+            integers("image", i,
+                     {GL_IMAGE_BINDING_NAME, GL_IMAGE_BINDING_LEVEL, GL_IMAGE_BINDING_LAYERED,
+                      GL_IMAGE_BINDING_LAYER, GL_IMAGE_BINDING_ACCESS, GL_IMAGE_BINDING_FORMAT});
+            integers("uniform buffer", i,
+                     {GL_UNIFORM_BUFFER_BINDING, GL_UNIFORM_BUFFER_START, GL_UNIFORM_BUFFER_SIZE});
+            integers("storage buffer", i,
+                     {GL_SHADER_STORAGE_BUFFER_BINDING, GL_SHADER_STORAGE_BUFFER_START,
+                      GL_SHADER_STORAGE_BUFFER_SIZE});
         }
         for (GLuint i = 0; i < 16; ++i) {
             GLfloat view[4] = {};
@@ -85,14 +157,20 @@ private:
             glGetFloati_v(GL_VIEWPORT, i, view);
             glGetDoublei_v(GL_DEPTH_RANGE, i, depth);
             glGetIntegeri_v(GL_SCISSOR_BOX, i, box);
-            put("viewport", i, {view[0], view[1], view[2], view[3], depth[0], depth[1], static_cast<double>(box[0]), static_cast<double>(box[1]), static_cast<double>(box[2]),
-                                static_cast<double>(box[3]), static_cast<double>(glIsEnabledi(GL_SCISSOR_TEST, i))});
+            put("viewport", i,
+                {view[0], view[1], view[2], view[3], depth[0], depth[1],
+                 static_cast<double>(box[0]), static_cast<double>(box[1]),
+                 static_cast<double>(box[2]), static_cast<double>(box[3]),
+                 static_cast<double>(glIsEnabledi(GL_SCISSOR_TEST, i))});
         }
     }
     void units() {
         for (GLuint unit = 0; unit < 32; ++unit) {
-            integers("unit", unit, {GL_TEXTURE_BINDING_1D, GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_3D, GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP,
-                                    GL_TEXTURE_BINDING_BUFFER, GL_TEXTURE_BINDING_2D_MULTISAMPLE, GL_SAMPLER_BINDING});
+            integers("unit", unit,
+                     {GL_TEXTURE_BINDING_1D, GL_TEXTURE_BINDING_2D, GL_TEXTURE_BINDING_3D,
+                      GL_TEXTURE_BINDING_2D_ARRAY, GL_TEXTURE_BINDING_CUBE_MAP,
+                      GL_TEXTURE_BINDING_BUFFER, GL_TEXTURE_BINDING_2D_MULTISAMPLE,
+                      GL_SAMPLER_BINDING});
         }
     }
     Dump dump_;
@@ -118,9 +196,12 @@ public:
         glDeleteVertexArrays(1, &vertex_array_);
     }
     void set() const {
-        for (const GLenum cap : {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST, GL_DEPTH_CLAMP, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP,
-                                 GL_RASTERIZER_DISCARD, GL_PRIMITIVE_RESTART, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK,
-                                 GL_FRAMEBUFFER_SRGB, GL_CLIP_DISTANCE0, GL_CLIP_DISTANCE3}) {
+        for (const GLenum cap :
+             {GL_BLEND, GL_CULL_FACE, GL_DEPTH_TEST, GL_STENCIL_TEST, GL_SCISSOR_TEST,
+              GL_DEPTH_CLAMP, GL_POLYGON_OFFSET_FILL, GL_COLOR_LOGIC_OP, GL_RASTERIZER_DISCARD,
+              GL_PRIMITIVE_RESTART, GL_SAMPLE_ALPHA_TO_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE,
+              GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, GL_FRAMEBUFFER_SRGB, GL_CLIP_DISTANCE0,
+              GL_CLIP_DISTANCE3}) {
             glEnable(cap);
         }
         glDisable(GL_MULTISAMPLE);
@@ -145,13 +226,17 @@ public:
         glViewport(11, 13, 17, 19);
         glClipControl(GL_UPPER_LEFT, GL_NEGATIVE_ONE_TO_ONE);
         glPatchParameteri(GL_PATCH_VERTICES, 7);
-        for (const GLenum store : {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS, GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,
-                                   GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES}) {
+        for (const GLenum store :
+             {GL_UNPACK_ROW_LENGTH, GL_UNPACK_SKIP_ROWS, GL_UNPACK_SKIP_PIXELS,
+              GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,
+              GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES}) {
             glPixelStorei(store, 1);
         }
         glPixelStorei(GL_UNPACK_ALIGNMENT, 8);
         glPixelStorei(GL_PACK_ALIGNMENT, 2);
-        for (const GLenum target : {GL_DRAW_INDIRECT_BUFFER, GL_DISPATCH_INDIRECT_BUFFER, GL_PIXEL_PACK_BUFFER, GL_PIXEL_UNPACK_BUFFER, GL_QUERY_BUFFER, GL_ARRAY_BUFFER}) {
+        for (const GLenum target :
+             {GL_DRAW_INDIRECT_BUFFER, GL_DISPATCH_INDIRECT_BUFFER, GL_PIXEL_PACK_BUFFER,
+              GL_PIXEL_UNPACK_BUFFER, GL_QUERY_BUFFER, GL_ARRAY_BUFFER}) {
             glBindBuffer(target, buffer_);
         }
         for (GLuint i = 0; i < 8; ++i) {
@@ -232,7 +317,8 @@ TEST_F(State, TheGuardsCost) {
     for (int i = 0; i < kTimes; ++i) {
         const gl::StateGuard guard;
     }
-    const std::chrono::duration<double, std::micro> passed = std::chrono::steady_clock::now() - start;
+    const std::chrono::duration<double, std::micro> passed =
+        std::chrono::steady_clock::now() - start;
     const double each = passed.count() / kTimes;
     RecordProperty("microseconds", static_cast<int>(each));
     std::printf("state guard: %.1f us each\n", each);
@@ -242,10 +328,12 @@ TEST_F(State, TheGuardsCost) {
 // ---- a host's own picture and depth
 
 struct HostPicture {
-    gl::Texture colour{GL_RGBA16F, {kWidth, kHeight}}, depth{GL_DEPTH_COMPONENT32F, {kWidth, kHeight}};
+    gl::Texture colour{GL_RGBA16F, {kWidth, kHeight}},
+        depth{GL_DEPTH_COMPONENT32F, {kWidth, kHeight}};
     [[nodiscard]] std::vector<float> depths() const {
         std::vector<float> out(static_cast<std::size_t>(kWidth) * kHeight);
-        glGetTextureImage(depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT, static_cast<GLsizei>(4 * out.size()), out.data());
+        glGetTextureImage(depth.id(), 0, GL_DEPTH_COMPONENT, GL_FLOAT,
+                          static_cast<GLsizei>(4 * out.size()), out.data());
         return out;
     }
 };
@@ -265,11 +353,17 @@ TEST_F(State, AHostsWallStandsInTheGrassWhateverItsDepth) {
             camera.clip_from_view[3][2] = -2 * kFar_m * kNear_m / (kFar_m - kNear_m);
         }
         const auto host_depth = [&](double distance_m) {
-            return static_cast<float>(reversed ? kNear_m / distance_m
-                                               : 0.5 + 0.5 * (camera.clip_from_view[2][2] * -distance_m + camera.clip_from_view[3][2]) / distance_m);
+            return static_cast<float>(reversed
+                                          ? kNear_m / distance_m
+                                          : 0.5 + 0.5 *
+                                                      (camera.clip_from_view[2][2] * -distance_m +
+                                                       camera.clip_from_view[3][2]) /
+                                                      distance_m);
         };
         HostPicture host;
-        std::vector<float> depth(static_cast<std::size_t>(kWidth) * kHeight, reversed ? 0.0f : 1.0f), colour(4 * depth.size(), 0);
+        std::vector<float> depth(static_cast<std::size_t>(kWidth) * kHeight,
+                                 reversed ? 0.0f : 1.0f),
+            colour(4 * depth.size(), 0);
         for (int y = 0; y < kHeight; ++y) {
             for (int x = kWidth / 2; x < kWidth; ++x) {
                 const auto at = static_cast<std::size_t>(y * kWidth + x);
@@ -288,12 +382,16 @@ TEST_F(State, AHostsWallStandsInTheGrassWhateverItsDepth) {
         int red = 0, grass = 0, other = 0, nearer = 0;
         for (int y = 0; y < kHeight; ++y) {
             for (int x = 0; x < kWidth; ++x) {
-                const auto pixel = static_cast<std::size_t>(3 * ((kHeight - 1 - y) * kWidth + x)), at = static_cast<std::size_t>(y * kWidth + x);
+                const auto pixel = static_cast<std::size_t>(3 * ((kHeight - 1 - y) * kWidth + x)),
+                           at = static_cast<std::size_t>(y * kWidth + x);
                 const bool is_red = drawn[pixel] > 200 && drawn[pixel + 1] < 60;
                 red += is_red ? 1 : 0;
                 grass += x >= kWidth / 2 && !is_red ? 1 : 0;
                 nearer += x >= kWidth / 2 && depths[at] != depth[at] ? 1 : 0;
-                other += x < kWidth / 2 && !std::equal(&drawn[pixel], &drawn[pixel] + 3, &bare[pixel]) ? 1 : 0;
+                other +=
+                    x < kWidth / 2 && !std::equal(&drawn[pixel], &drawn[pixel] + 3, &bare[pixel])
+                        ? 1
+                        : 0;
                 if (is_red && x > kWidth / 2) {
                     EXPECT_GT(radiance[4 * at], 1.5f);
                 }
@@ -306,7 +404,9 @@ TEST_F(State, AHostsWallStandsInTheGrassWhateverItsDepth) {
         if (reversed) {
             first = drawn;
         } else {
-            EXPECT_LT(std::inner_product(drawn.begin(), drawn.end(), first.begin(), 0, std::plus<>(), [](int a, int b) { return a != b ? 1 : 0; }),
+            EXPECT_LT(std::inner_product(drawn.begin(), drawn.end(), first.begin(), 0,
+                                         std::plus<>(),
+                                         [](int a, int b) { return a != b ? 1 : 0; }),
                       kWidth * kHeight / 20);
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes on a mesh: grass where the placement put it, objects on their paths, nothing of a field; every shape draws.
+// Scenes on a mesh: grass where the placement put it, objects on their paths, nothing of a field;
+// every shape draws.
 #include <cmath>
 #include <map>
 
@@ -35,7 +36,8 @@ render::World mesh_world(scene::Mesh mesh) {
     return world;
 }
 
-std::map<int, int> tiers_of(Renderer& renderer, glm::dvec3 position, double pitch_deg, double time_s = 0) {
+std::map<int, int> tiers_of(Renderer& renderer, glm::dvec3 position, double pitch_deg,
+                            double time_s = 0) {
     FrameSettings settings;
     settings.width = 160;
     settings.height = 90;
@@ -61,12 +63,14 @@ class SurfaceScenes : public GlTest {};
 TEST_F(SurfaceScenes, GrassStandsOnTheSideThatIsUp) {
     for (const bool up : {true, false}) {
         Renderer renderer(mesh_world(sheet(2, up)));
-        auto above = tiers_of(renderer, {0, 1.5, 2.5}, -30), below = tiers_of(renderer, {0, -1.5, 2.5}, 30);
+        auto above = tiers_of(renderer, {0, 1.5, 2.5}, -30),
+             below = tiers_of(renderer, {0, -1.5, 2.5}, 30);
         EXPECT_GT(above[0], 100); // the sheet has two sides
         EXPECT_GT(below[0], 100);
         EXPECT_GT((up ? above : below)[1], 4 * (up ? below : above)[1]);
         EXPECT_GT((up ? above : below)[1], 1500);
-        EXPECT_EQ(above[0] + above[1] + above[7], 160 * 90); // ground, blades, sky; no shells, no grouped blades
+        EXPECT_EQ(above[0] + above[1] + above[7],
+                  160 * 90); // ground, blades, sky; no shells, no grouped blades
     }
 }
 
@@ -100,8 +104,9 @@ TEST_F(SurfaceScenes, SteepPartsAreBare) {
 
 TEST_F(SurfaceScenes, EveryShapeDraws) {
     std::map<scene::BladeShape, int> covered;
-    for (const auto shape : {scene::BladeShape::kQuad, scene::BladeShape::kTriangle, scene::BladeShape::kQuadratic, scene::BladeShape::kTriangleTip,
-                             scene::BladeShape::kDandelion}) {
+    for (const auto shape :
+         {scene::BladeShape::kQuad, scene::BladeShape::kTriangle, scene::BladeShape::kQuadratic,
+          scene::BladeShape::kTriangleTip, scene::BladeShape::kDandelion}) {
         render::World world = mesh_world(sheet(1));
         world.scene.surface_grass.shape = shape;
         world.scene.surface_grass.density_per_m2 = 60;
@@ -184,22 +189,30 @@ TEST_F(SurfaceScenes, LivingBladesOfAMeshEqualTheTwin) {
     const auto grass = blades::place_surface_grass(bent_sheet(), spec, "bent.glb");
     const auto records = gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass.blades));
     const double canopy = spec.blade_height_m.y;
-    blades::SurfaceSimulation simulation({{&records, grass.clusters}}, canopy, {{50, 64 << 20}, 1.0 / 60});
+    blades::SurfaceSimulation simulation({{&records, grass.clusters}}, canopy,
+                                         {{50, 64 << 20}, 1.0 / 60});
     scene::Scene scene;
     scene::ObjectSpec ball;
     ball.kind = "sphere";
     ball.radius_m = 0.25;
     ball.path = "over";
     scene.objects = {ball};
-    scene.paths["over"].keys = {{0, {-0.6, 1.8, -0.6}, 0, 0}, {1.5, {0.2, 1.7, 0.4}, 0, 0}, {3, {0.6, -0.2, 1.8}, 0, 0}};
+    scene.paths["over"].keys = {
+        {0, {-0.6, 1.8, -0.6}, 0, 0}, {1.5, {0.2, 1.7, 0.4}, 0, 0}, {3, {0.6, -0.2, 1.8}, 0, 0}};
     const blades::Colliders balls(scene, {}, [](double, double) { return 0.0; });
     wind::Wind wind(SmallWorld::breeze(), 0);
     const glm::dvec3 anchor(0);
-    const blades::LivingBlades::Inputs inputs{wind, world.surface, balls, {0, 1, 3}, anchor, 0, 0, nullptr};
+    const blades::LivingBlades::Inputs inputs{wind, world.surface, balls, {0, 1, 3}, anchor, 0,
+                                              0,    nullptr};
     simulation.advance(0, inputs);
     ASSERT_EQ(simulation.blades(), grass.blades.size());
-    const auto states = [&] { return simulation.pass().states().read_all<glm::vec4>(simulation.slots() * CULL_GROUP); };
-    const auto place = [&](std::size_t blade) { return static_cast<std::size_t>(simulation.slot_of(blade / CULL_GROUP)) * CULL_GROUP + blade % CULL_GROUP; };
+    const auto states = [&] {
+        return simulation.pass().states().read_all<glm::vec4>(simulation.slots() * CULL_GROUP);
+    };
+    const auto place = [&](std::size_t blade) {
+        return static_cast<std::size_t>(simulation.slot_of(blade / CULL_GROUP)) * CULL_GROUP +
+               blade % CULL_GROUP;
+    };
     std::vector<glm::vec4> twin = states();
     const auto rules = shared::plain_blade_step(1.0f / 60, static_cast<float>(canopy), 0);
     double worst = 0, moved = 0, memory = 0, under = 0;
@@ -207,25 +220,33 @@ TEST_F(SurfaceScenes, LivingBladesOfAMeshEqualTheTwin) {
         simulation.advance(step / 60.0, inputs);
         wind.wait();
         const auto now = balls.at(step / 60.0, 1.0 / 60).front();
-        const blades::StepSphere sphere{glm::vec4(glm::vec3(now.centre), static_cast<float>(now.radius_m)), glm::vec4(glm::vec3(now.before), 0)};
+        const blades::StepSphere sphere{
+            glm::vec4(glm::vec3(now.centre), static_cast<float>(now.radius_m)),
+            glm::vec4(glm::vec3(now.before), 0)};
         for (std::size_t n = 0; n < grass.blades.size(); ++n) {
             const glm::vec3 root(grass.blades[n].root_direction);
             const auto body = shared::surface_blade_body(rules, grass.blades[n], root);
             glm::vec4& state = twin[place(n)];
-            state = blades::step_blade(rules, body, root, glm::vec2(wind.at(root.x, root.z, step / 60.0)), {&sphere, 1}, state);
-            under = std::max<double>(under, -glm::dot(body.calm2 + glm::vec3(state), body.up) / body.stem_canopy.x);
+            state = blades::step_blade(rules, body, root,
+                                       glm::vec2(wind.at(root.x, root.z, step / 60.0)),
+                                       {&sphere, 1}, state);
+            under = std::max<double>(under, -glm::dot(body.calm2 + glm::vec3(state), body.up) /
+                                                body.stem_canopy.x);
         }
         if (step % 40 == 0) {
             const auto found = states();
             for (std::size_t n = 0; n < grass.blades.size(); ++n) {
                 const double length = grass.blades[n].v1_height.w;
-                worst = std::max<double>(worst, glm::distance(glm::vec3(found[place(n)]), glm::vec3(twin[place(n)])) / length);
+                worst = std::max<double>(
+                    worst,
+                    glm::distance(glm::vec3(found[place(n)]), glm::vec3(twin[place(n)])) / length);
                 moved = std::max<double>(moved, glm::length(glm::vec3(found[place(n)])) / length);
                 memory = std::max<double>(memory, found[place(n)].w);
             }
         }
     }
-    std::printf("%zu blades: worst %.2e of a length; greatest move %.2f; memory %.2f; under %.1e\n", grass.blades.size(), worst, moved, memory, under);
+    std::printf("%zu blades: worst %.2e of a length; greatest move %.2f; memory %.2f; under %.1e\n",
+                grass.blades.size(), worst, moved, memory, under);
     EXPECT_LT(worst, 1e-4);
     EXPECT_GT(moved, 0.5);
     EXPECT_GT(memory, 1.0);

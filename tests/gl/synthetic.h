@@ -17,16 +17,27 @@
 namespace sward::tests {
 
 inline shared::GrassAppearance grass_look() {
-    return {{0.05f, 0.09f, 0.02f}, 0.07f,
-            {0.08f, 0.15f, 0.03f}, 0.45f,
-            {0.21f, 0.17f, 0.08f}, 0.45f,
+    return {{0.05f, 0.09f, 0.02f},
+            0.07f,
+            {0.08f, 0.15f, 0.03f},
+            0.45f,
+            {0.21f, 0.17f, 0.08f},
+            0.45f,
             {1.0f, 1.0f, 0.06f, 18.0f},
-            {0.5f, 0.4f, 0.1f}, 0.0f,
+            {0.5f, 0.4f, 0.1f},
+            0.0f,
             {2.0f, 1.0f, 1.0f, 1.0f}};
 }
 
 inline shared::Light daylight(glm::vec3 to_sun) {
-    return {to_sun, shared::kSunExtinction, {3.6f, 3.4f, 3.0f}, 0, {0.22f, 0.42f, 0.85f}, shared::kSkyExtinction, {0.82f, 0.96f, 1.12f}, 0};
+    return {to_sun,
+            shared::kSunExtinction,
+            {3.6f, 3.4f, 3.0f},
+            0,
+            {0.22f, 0.42f, 0.85f},
+            shared::kSkyExtinction,
+            {0.82f, 0.96f, 1.12f},
+            0};
 }
 
 inline scene::Heightfield flat_field(float metres) {
@@ -134,8 +145,9 @@ inline grass::FarLight synthetic_light(const std::vector<grass::FarRow>& rows) {
         for (std::size_t s = 0; s < light.sun_elevations_deg.size(); ++s) {
             for (int azimuth = 0; azimuth < light.sun_azimuths; ++azimuth) {
                 const float against = azimuth == 2 ? 0.8f : 1.0f;
-                light.samples.push_back({glm::vec3(0.06f, 0.09f, 0.03f) * (bent * against * static_cast<float>(s)),
-                                         glm::vec3(0.05f, 0.08f, 0.02f) * bent, row.coverage, row.height});
+                light.samples.push_back(
+                    {glm::vec3(0.06f, 0.09f, 0.03f) * (bent * against * static_cast<float>(s)),
+                     glm::vec3(0.05f, 0.08f, 0.02f) * bent, row.coverage, row.height});
             }
         }
     }
@@ -161,7 +173,8 @@ inline grass::GrassSet synthetic_set(int blades_a_variant = 300) {
     for (int k = 0; k < 3; ++k) {
         const int size = 64 >> k, layers = 4 >> k, slices = 8 >> k;
         set.levels.push_back(
-            {layers, even_heights(layers + 1, set.canopy_m, 0), even_heights(layers, set.canopy_m, 0.5f), slices,
+            {layers, even_heights(layers + 1, set.canopy_m, 0),
+             even_heights(layers, set.canopy_m, 0.5f), slices,
              noise_images(size, size, set.variants * layers * shared::kPlanes),
              noise_images(size, size / 4, set.variants * 2 * slices * shared::kPlanes)});
     }

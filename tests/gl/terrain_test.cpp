@@ -137,7 +137,8 @@ TEST_F(Terrain, GroundIsContinuousAcrossLevels) {
     EXPECT_GE(last_level, 3); // borders were crossed
 }
 
-/// A bare strip of 8 m in a mask of 1 m, far from the eye: the clipmap's posts there are wider than it.
+/// A bare strip of 8 m in a mask of 1 m, far from the eye: the clipmap's posts there are wider than
+/// it.
 scene::DensityMask striped_mask(bool bounded) {
     scene::DensityMask mask;
     mask.width = 1500;
@@ -156,13 +157,16 @@ TEST_F(Terrain, TheMaskIsReadByThePixel) {
         SmallWorld world(hilly_field(), 0, striped_mask(bounded), {4, 330, -400});
         std::vector<glm::vec4> places;
         const auto add = [&](double x, double z) {
-            places.emplace_back(glm::vec2(glm::dvec2(x, z) - glm::dvec2(world.anchor.x, world.anchor.z)), 0, 0);
+            places.emplace_back(
+                glm::vec2(glm::dvec2(x, z) - glm::dvec2(world.anchor.x, world.anchor.z)), 0, 0);
         };
         for (int step = 0; step < 100; ++step) // along the strip, and to both sides of it
             add(4, -850 - 3 * step), add(-8, -850 - 3 * step), add(16, -850 - 3 * step);
         add(-900, -900), add(4, 400); // outside
         const auto read = [&](const char* width) {
-            return run_probe(shaders, {"lib/ground.glsl"}, std::string("    b = vec4(ground_surface(a.xy, ") + width + ").density);", places);
+            return run_probe(
+                shaders, {"lib/ground.glsl"},
+                std::string("    b = vec4(ground_surface(a.xy, ") + width + ").density);", places);
         };
         const auto pixel = read("0.0");
         for (std::size_t i = 0; i < 300; i += 3) {
@@ -283,9 +287,11 @@ TEST_F(Terrain, LevelsMeetWithoutCracks) {
 /// Through a long lens the same holds, and where it begins the ground is the clipmap's.
 TEST_F(Terrain, FineLevelsMeetWithoutCracks) {
     SmallWorld world(hilly_field(), 2.5, {}, {131.4, 345, -317.5});
-    const terrain::Frustum everything(glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
+    const terrain::Frustum everything(
+        glm::mat4({1e-5f, 0, 0, 0}, {0, 1e-5f, 0, 0}, {0, 0, 1e-5f, 0}, {0, 0, 0, 1}));
     terrain::Detail detail{60, 8};
-    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor, {world.frame.eye, 0.0f}, detail);
+    const auto blocks = visible_blocks(world.clipmap, world.surface, everything, world.anchor,
+                                       {world.frame.eye, 0.0f}, detail);
     EXPECT_GT(blocks.size(), all_blocks(world).size());
     EXPECT_LT(blocks.size(), 8193u);
     EXPECT_GE(detail.zoom, 2.0f);
@@ -312,8 +318,7 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
         const glm::dvec2 at = world.world(place);
         const glm::dvec2 wind = world.wind.at(at.x, at.y, SmallWorld::kTime_s);
         const shared::BlockSample& sample = samples[n];
-        ASSERT_LT(glm::length(glm::dvec2(sample.wind) - wind), 5e-3)
-            << place.x << " " << place.y;
+        ASSERT_LT(glm::length(glm::dvec2(sample.wind) - wind), 5e-3) << place.x << " " << place.y;
         ASSERT_NEAR(sample.density, 0.8f * 64 / 255, 2e-3);
         const glm::vec2 from_eye =
             glm::abs(place - glm::vec2(world.frame.eye.x, world.frame.eye.z)) / block.cell;
@@ -327,8 +332,7 @@ TEST_F(Terrain, BlockSamplesEqualSurfaceAndWind) {
         ++checked[static_cast<std::size_t>(block.level)];
         if (block.level == 0) {
             const glm::vec3 normal = world.surface.normal(at.x, at.y);
-            ASSERT_NEAR(sample.sun_cosine, glm::dot(normal, world.frame.light.to_sun),
-                        0.02);
+            ASSERT_NEAR(sample.sun_cosine, glm::dot(normal, world.frame.light.to_sun), 0.02);
             ASSERT_NEAR(sample.slope.x, -normal.x / normal.y, 0.03);
             ASSERT_NEAR(sample.slope.y, -normal.z / normal.y, 0.03);
         }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tracks on the GPU against their C++ twin, over pages' rims, at any rate of pictures, out of the pool and back.
+// Tracks on the GPU against their C++ twin, over pages' rims, at any rate of pictures, out of the
+// pool and back.
 #include <algorithm>
 #include <cmath>
 
@@ -20,14 +21,17 @@ constexpr int kSide = shared::kTrackCells;
 /// A wheel along a path east over level ground.
 scene::Scene drive(double speed_mps, double from_x, double to_x, double z = 16) {
     scene::Scene scene;
-    scene.paths["drive"].keys = {{0, {from_x, 0, z}, 90, 0}, {std::abs(to_x - from_x) / speed_mps, {to_x, 0, z}, 90, 0}};
+    scene.paths["drive"].keys = {{0, {from_x, 0, z}, 90, 0},
+                                 {std::abs(to_x - from_x) / speed_mps, {to_x, 0, z}, 90, 0}};
     scene::TrackSpec& spec = scene.tracks.emplace();
-    spec.feet = {{scene::TrackFoot::Kind::kWheel, "drive", {0.8, 0}, {0.3, 0.35}, 0, 1}, {scene::TrackFoot::Kind::kBox, "drive", {-0.8, 0.2}, {0.4, 0.5}, 0.02, 1}};
+    spec.feet = {{scene::TrackFoot::Kind::kWheel, "drive", {0.8, 0}, {0.3, 0.35}, 0, 1},
+                 {scene::TrackFoot::Kind::kBox, "drive", {-0.8, 0.2}, {0.4, 0.5}, 0.02, 1}};
     return scene;
 }
 
 struct Field {
-    explicit Field(const scene::Scene& scene) : tracks(scene, 0.3, {[](double, double) { return 0.0; }, {}}) {}
+    explicit Field(const scene::Scene& scene)
+        : tracks(scene, 0.3, {[](double, double) { return 0.0; }, {}}) {}
     void advance(double time_s, glm::dvec3 eye = {0, 2, 0}) { tracks.advance(time_s, {&eye, 1}); }
     tracks::Tracks tracks;
 };
@@ -35,7 +39,8 @@ struct Field {
 TEST_F(Tracks, StepsEqualTheTwin) {
     const scene::Scene scene = drive(10, 4, 28);
     const shared::TrackRules rules = tracks::rules_of(*scene.tracks, 0.3);
-    const tracks::PrintList list(*scene.tracks, scene.paths, 0.3, [](double, double) { return 0.0; });
+    const tracks::PrintList list(*scene.tracks, scene.paths, 0.3,
+                                 [](double, double) { return 0.0; });
     constexpr int kRow = shared::kTrackRow;
     tracks::TrackPass pass(1, shared::kTrackBlocks, 64);
     pass.reserve(1, shared::kTrackBlocks);
@@ -51,7 +56,8 @@ TEST_F(Tracks, StepsEqualTheTwin) {
             entry.prints = static_cast<int>(work.prints.size());
             entry.first_cell = glm::ivec2(x, z) * shared::kTrackBlock;
             entry.own = block;
-            entry.beside = {x > 0 ? block - 1 : -1, x < kRow - 1 ? block + 1 : -1, z > 0 ? block - kRow : -1, z < kRow - 1 ? block + kRow : -1};
+            entry.beside = {x > 0 ? block - 1 : -1, x < kRow - 1 ? block + 1 : -1,
+                            z > 0 ? block - kRow : -1, z < kRow - 1 ? block + kRow : -1};
             entry.slope = {0.2f, -0.1f};
             work.moving.push_back(entry);
         }
@@ -66,11 +72,17 @@ TEST_F(Tracks, StepsEqualTheTwin) {
     double most_theta = 0, most_omega = 0, most_pressed = 0, reached = 0;
     for (std::size_t n = 0; n < TrackTwin::kCount; ++n) {
         const shared::TrackCell& cell = twin.cells[n];
-        const glm::ivec2 at(static_cast<int>(n) % shared::kTrackCells, static_cast<int>(n) / shared::kTrackCells);
-        const glm::vec4 bend = content.bends[static_cast<std::size_t>(shared::track_block_of(at) * shared::kTrackBlock * shared::kTrackBlock + shared::track_in_block(at))];
+        const glm::ivec2 at(static_cast<int>(n) % shared::kTrackCells,
+                            static_cast<int>(n) / shared::kTrackCells);
+        const glm::vec4 bend = content.bends[static_cast<std::size_t>(
+            shared::track_block_of(at) * shared::kTrackBlock * shared::kTrackBlock +
+            shared::track_in_block(at))];
         most_theta = std::max<double>(most_theta, glm::length(glm::vec2(bend) - cell.theta));
-        most_omega = std::max<double>(most_omega, glm::length(glm::vec2(bend.z, bend.w) - cell.omega) / (1 + glm::length(cell.omega)));
-        most_pressed = std::max<double>(most_pressed, glm::length(shared::track_unpack(words[n]) - twin.pressed[n]));
+        most_omega =
+            std::max<double>(most_omega, glm::length(glm::vec2(bend.z, bend.w) - cell.omega) /
+                                             (1 + glm::length(cell.omega)));
+        most_pressed = std::max<double>(
+            most_pressed, glm::length(shared::track_unpack(words[n]) - twin.pressed[n]));
         reached = std::max<double>(reached, glm::length(cell.theta));
     }
     EXPECT_LT(most_theta, 1e-4);
@@ -85,7 +97,8 @@ std::vector<float> bits(const tracks::Tracks& tracks, double from_x, double to_x
     for (double x = from_x; x < to_x; x += 3.1) {
         for (double z = 14; z < 18; z += 0.25) {
             const auto sample = tracks.at(x, z);
-            out.insert(out.end(), {sample.theta.x, sample.theta.y, sample.pressed.x, sample.pressed.y});
+            out.insert(out.end(),
+                       {sample.theta.x, sample.theta.y, sample.pressed.x, sample.pressed.y});
         }
     }
     return out;
@@ -108,15 +121,21 @@ TEST_F(Tracks, AnyRateOfPicturesGivesTheSameBits) {
 }
 
 TEST_F(Tracks, PagesJoinWithoutASeam) {
-    // The same print in the middle of a page and on the corner of four: the waves around it are the same.
+    // The same print in the middle of a page and on the corner of four: the waves around it are the
+    // same.
     std::vector<tracks::Tracks::Sample> found[2];
     for (int n = 0; n < 2; ++n) {
         const double middle = n == 0 ? 16 : 32;
         scene::Scene scene;
         scene.tracks.emplace();
-        tracks::Tracks field(scene, 0.3, {[](double, double) { return 0.0; }, [=](double time_s, double) {
-                                              return time_s > 0.4 ? std::vector<tracks::Ball>{} : std::vector<tracks::Ball>{{{middle, 0.5, middle}, {middle, 0.5, middle}, 0.5}};
-                                          }});
+        tracks::Tracks field(
+            scene, 0.3,
+            {[](double, double) { return 0.0; },
+             [=](double time_s, double) {
+                 return time_s > 0.4 ? std::vector<tracks::Ball>{}
+                                     : std::vector<tracks::Ball>{
+                                           {{middle, 0.5, middle}, {middle, 0.5, middle}, 0.5}};
+             }});
         const glm::dvec3 eye(16, 2, 16);
         for (int step = 1; step <= 32; ++step) {
             field.advance(step / 60.0, {&eye, 1});
@@ -145,7 +164,11 @@ TEST_F(Tracks, WhatIsDroppedComesBackToTheBit) {
     Field stays(scene);
     // Another path far away takes the pool.
     scene::Scene busy = scene;
-    busy.paths["away"].keys = {{0, {5000, 50, 16}, 90, 0}, {20, {5000, 50, 16}, 90, 0}, {21, {5000, 0, 16}, 90, 0}, {23, {5200, 0, 16}, 90, 0}, {24, {5200, 50, 16}, 90, 0}};
+    busy.paths["away"].keys = {{0, {5000, 50, 16}, 90, 0},
+                               {20, {5000, 50, 16}, 90, 0},
+                               {21, {5000, 0, 16}, 90, 0},
+                               {23, {5200, 0, 16}, 90, 0},
+                               {24, {5200, 50, 16}, 90, 0}};
     busy.tracks->feet.push_back({scene::TrackFoot::Kind::kBox, "away", {0, 0}, {1, 1}, 0, 1});
     Field goes(busy);
     for (int n = 0; n <= 50; ++n) {
@@ -237,13 +260,17 @@ TEST_F(Tracks, AbsurdBodiesHarmNothing) {
     scene::Scene scene;
     scene.tracks.emplace().pages = 8;
     const double nan = std::nan("");
-    tracks::Tracks field(scene, 0.3, {[](double, double) { return 0.0; }, [=](double time_s, double) {
-                                          return std::vector<tracks::Ball>{{{nan, 0, 0}, {0, 0, 0}, 1},
-                                                                           {{1e6 * time_s, 0.5, 0}, {1e6 * (time_s - 1 / 60.0), 0.5, 0}, 0.6},
-                                                                           {{0, 9999, 0}, {0, 9999, 0}, 10000},
-                                                                           {{1e30, 0, 1e30}, {1e30, 0, 1e30}, 1},
-                                                                           {{3, 0.1, 3}, {3, 0.1, 3}, 0}};
-                                      }});
+    tracks::Tracks field(
+        scene, 0.3,
+        {[](double, double) { return 0.0; },
+         [=](double time_s, double) {
+             return std::vector<tracks::Ball>{
+                 {{nan, 0, 0}, {0, 0, 0}, 1},
+                 {{1e6 * time_s, 0.5, 0}, {1e6 * (time_s - 1 / 60.0), 0.5, 0}, 0.6},
+                 {{0, 9999, 0}, {0, 9999, 0}, 10000},
+                 {{1e30, 0, 1e30}, {1e30, 0, 1e30}, 1},
+                 {{3, 0.1, 3}, {3, 0.1, 3}, 0}};
+         }});
     const glm::dvec3 eye(0, 2, 0);
     for (int n = 1; n < 12; ++n) {
         field.advance(n / 60.0, {&eye, 1});

@@ -141,10 +141,11 @@ TEST_F(Twins, ShadesAlike) {
                 const vec3 tangent = glm::normalize(vec3(a.x, 1, a.y)),
                            to_eye = glm::normalize(vec3(a.z, 0.3f, a.w));
                 const shared::GrassPoint point{
-                    shared::blade_albedo(frame.looks[0], glm::abs(vec2(a)) * 0.99f, 0.4f, 1), tangent,
-                    0.6f, a.x};
+                    shared::blade_albedo(frame.looks[0], glm::abs(vec2(a)) * 0.99f, 0.4f, 1),
+                    tangent, 0.6f, a.x};
                 return vec4(shade_grass(frame.looks[0], frame.light, point, to_eye),
-                            shared::sky_radiance(frame.air, to_eye).y + shared::haze_of(frame.air, 900.0f * to_eye).added.z);
+                            shared::sky_radiance(frame.air, to_eye).y +
+                                shared::haze_of(frame.air, 900.0f * to_eye).added.z);
             });
 }
 
@@ -160,16 +161,19 @@ TEST_F(Twins, LandShadowAlike) {
     terrain::SunSweep sweep(field);
     sweep.begin(to_sun);
     ASSERT_TRUE(sweep.advance(1000));
-    compare("lib/land_shadow.glsl", "    b = vec4(sun_seen(a.xy, 0.0), sun_seen(a.xy, a.z), 0.0, 0.0);",
-            random_inputs({-900, -900, 0, 0}, {900, 900, 30, 1}), 0.1f, // filters know 1/256 of a texel
-            [&](vec4 a) {
-                const glm::dvec2 at = world.world(vec2(a)) / field.spacing_m + 32.0, low = glm::floor(at);
-                const vec2 f(at - low);
-                const int i = static_cast<int>(low.x), j = static_cast<int>(low.y);
-                const vec2 seen = glm::mix(glm::mix(sweep.seen_from(i, j), sweep.seen_from(i + 1, j), f.x),
-                                           glm::mix(sweep.seen_from(i, j + 1), sweep.seen_from(i + 1, j + 1), f.x), f.y);
-                return vec4(shared::sun_share(seen, 0), shared::sun_share(seen, a.z), 0, 0);
-            });
+    compare(
+        "lib/land_shadow.glsl", "    b = vec4(sun_seen(a.xy, 0.0), sun_seen(a.xy, a.z), 0.0, 0.0);",
+        random_inputs({-900, -900, 0, 0}, {900, 900, 30, 1}), 0.1f, // filters know 1/256 of a texel
+        [&](vec4 a) {
+            const glm::dvec2 at = world.world(vec2(a)) / field.spacing_m + 32.0,
+                             low = glm::floor(at);
+            const vec2 f(at - low);
+            const int i = static_cast<int>(low.x), j = static_cast<int>(low.y);
+            const vec2 seen = glm::mix(
+                glm::mix(sweep.seen_from(i, j), sweep.seen_from(i + 1, j), f.x),
+                glm::mix(sweep.seen_from(i, j + 1), sweep.seen_from(i + 1, j + 1), f.x), f.y);
+            return vec4(shared::sun_share(seen, 0), shared::sun_share(seen, a.z), 0, 0);
+        });
 }
 
 } // namespace

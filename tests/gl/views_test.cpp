@@ -17,7 +17,8 @@ namespace {
 class Views : public Face {};
 
 TEST_F(Views, TheOrderOfDrawingChangesNoPixel) {
-    Field field = render::Access::field_of(face_world()), other = render::Access::field_of(face_world());
+    Field field = render::Access::field_of(face_world()),
+          other = render::Access::field_of(face_world());
     const CameraPose left = pose_over(field, -15), right = pose_over(field, 15);
     CameraPose away = pose_over(field, 200, -30);
     away.position = {-400, 90, 250};
@@ -41,7 +42,8 @@ TEST_F(Views, TwoChannelsAgreeWhereTheyOverlap) {
     CameraPose pose = pose_over(field);
     Camera camera = camera_of(pose, kWidth, kHeight);
     simulate(field, 1, camera);
-    // Two channels of one picture plane, half a picture apart: the same rays through the overlap's pixels.
+    // Two channels of one picture plane, half a picture apart: the same rays through the overlap's
+    // pixels.
     camera.clip_from_view = projection({-0.75, 0.25, -0.3125, 0.3125});
     const Bytes a = picture(left, camera);
     camera.clip_from_view = projection({-0.25, 0.75, -0.3125, 0.3125});
@@ -51,8 +53,12 @@ TEST_F(Views, TwoChannelsAgreeWhereTheyOverlap) {
         for (int x = 0; x < kWidth / 2; ++x) {
             int apart = 0;
             for (int c = 0; c < 3; ++c) {
-                apart = std::max(apart, std::abs(static_cast<int>(a[static_cast<std::size_t>(3 * (y * kWidth + x + kWidth / 2) + c)]) -
-                                                 static_cast<int>(b[static_cast<std::size_t>(3 * (y * kWidth + x) + c)])));
+                apart = std::max(
+                    apart,
+                    std::abs(
+                        static_cast<int>(
+                            a[static_cast<std::size_t>(3 * (y * kWidth + x + kWidth / 2) + c)]) -
+                        static_cast<int>(b[static_cast<std::size_t>(3 * (y * kWidth + x) + c)])));
             }
             differing += apart > 0 ? 1 : 0;
             most = std::max(most, apart);
@@ -60,8 +66,10 @@ TEST_F(Views, TwoChannelsAgreeWhereTheyOverlap) {
     }
     RecordProperty("differing_pixels", differing);
     RecordProperty("most_apart", most);
-    std::printf("overlap: %d of %d pixels differ, by %d of 255 at most\n", differing, kWidth / 2 * kHeight, most);
-    // The field is the same to the bit; a driver rounds a corner's place in the picture by where the picture begins, to 1/256 pixel.
+    std::printf("overlap: %d of %d pixels differ, by %d of 255 at most\n", differing,
+                kWidth / 2 * kHeight, most);
+    // The field is the same to the bit; a driver rounds a corner's place in the picture by where
+    // the picture begins, to 1/256 pixel.
     EXPECT_LT(differing, kWidth / 2 * kHeight / 50);
 }
 
@@ -91,18 +99,21 @@ TEST_F(Views, TenViewsCostOneSimulation) {
 TEST_F(Views, BladesLiveAroundEveryEye) {
     Field field = render::Access::field_of(face_world());
     const double ground = field.ground_height(20, 30);
-    const std::vector<glm::dvec3> eyes = {{20, ground + 1.5, 30}, {80, field.ground_height(80, -40) + 1.5, -40}};
+    const std::vector<glm::dvec3> eyes = {{20, ground + 1.5, 30},
+                                          {80, field.ground_height(80, -40) + 1.5, -40}};
     field.simulate(0.1, {eyes.data(), 1});
     const auto one = render::Access::state(field).living()->blades();
     field.simulate(0.2, eyes);
-    EXPECT_NEAR(static_cast<double>(render::Access::state(field).living()->blades()), 2.0 * static_cast<double>(one), 0.3 * static_cast<double>(one));
+    EXPECT_NEAR(static_cast<double>(render::Access::state(field).living()->blades()),
+                2.0 * static_cast<double>(one), 0.3 * static_cast<double>(one));
     EXPECT_THROW(field.simulate(0.3, {}), Error);
 }
 
 TEST_F(Views, ASunThatMovesEndsInItsPicture) {
     render::World late = face_world();
     late.scene.sun = {210, 52};
-    Field field = render::Access::field_of(face_world()), began = render::Access::field_of(std::move(late));
+    Field field = render::Access::field_of(face_world()),
+          began = render::Access::field_of(std::move(late));
     View view(field), other(began);
     const Camera camera = camera_of(pose_over(field), kWidth, kHeight);
     simulate(field, 1, camera);
@@ -112,7 +123,8 @@ TEST_F(Views, ASunThatMovesEndsInItsPicture) {
         simulate(field, 1, camera);
         view.draw(camera, {kWidth, kHeight});
     }
-    for (int frame = 0; frame < 2 * shared::kFarWinds; ++frame) { // the table of the march's light comes after
+    for (int frame = 0; frame < 2 * shared::kFarWinds;
+         ++frame) { // the table of the march's light comes after
         simulate(field, 1, camera);
         view.draw(camera, {kWidth, kHeight});
     }
@@ -128,7 +140,8 @@ TEST_F(Views, AWindThatChangesEndsInItsPicture) {
     late.scene.wind.speed_mps = 9;
     late.scene.wind.direction_deg = 200;
     late.scene.wind.gust = 0.5;
-    Field field = render::Access::field_of(face_world()), began = render::Access::field_of(std::move(late));
+    Field field = render::Access::field_of(face_world()),
+          began = render::Access::field_of(std::move(late));
     View view(field), other(began);
     const Camera camera = camera_of(pose_over(field), kWidth, kHeight);
     double time_s = 0;
@@ -150,7 +163,8 @@ TEST_F(Views, AWindThatChangesEndsInItsPicture) {
         render::Access::state(began).wind.wait();
         EXPECT_EQ(field.wind_at(at.x, at.y, time_s), began.wind_at(at.x, at.y, time_s));
     }
-    for (int frame = 0; frame < 2 * shared::kFarWinds; ++frame) { // the far field's light comes after
+    for (int frame = 0; frame < 2 * shared::kFarWinds;
+         ++frame) { // the far field's light comes after
         simulate(field, time_s, camera);
         simulate(began, time_s, camera);
         view.draw(camera, {kWidth, kHeight});
@@ -214,12 +228,15 @@ TEST_F(Views, MirrorAndBankShowTheSameField) {
         for (int x = 0; x < kWidth; ++x) {
             for (int c = 0; c < 3; ++c) {
                 const auto at = static_cast<std::size_t>(3 * (y * kWidth + x) + c);
-                back[at] = mirrored[static_cast<std::size_t>(3 * (y * kWidth + kWidth - 1 - x) + c)];
-                turned[at] = banked[static_cast<std::size_t>(3 * ((kHeight - 1 - y) * kWidth + kWidth - 1 - x) + c)];
+                back[at] =
+                    mirrored[static_cast<std::size_t>(3 * (y * kWidth + kWidth - 1 - x) + c)];
+                turned[at] = banked[static_cast<std::size_t>(
+                    3 * ((kHeight - 1 - y) * kWidth + kWidth - 1 - x) + c)];
             }
         }
     }
-    // Samples and dither lie elsewhere in a pixel; another side of a hill or no grass would be tens apart.
+    // Samples and dither lie elsewhere in a pixel; another side of a hill or no grass would be tens
+    // apart.
     EXPECT_LT(mean_apart(back, plain), 6);
     EXPECT_LT(mean_apart(turned, plain), 6);
     EXPECT_GT(mean_apart(mirrored, plain), 2 * mean_apart(back, plain));
@@ -246,11 +263,11 @@ TEST_F(Views, CamerasThatAreNoneAreRefused) {
     simulate(field, 1, good);
     const Bytes before = picture(view, good);
     std::vector<Camera> bad(5, good);
-    bad[0].view_from_world[0] *= 2;                     // stretches
-    bad[1].clip_from_view = glm::dmat4(1);              // parallel rays
+    bad[0].view_from_world[0] *= 2;        // stretches
+    bad[1].clip_from_view = glm::dmat4(1); // parallel rays
     bad[2].view_from_world[3][0] = std::nan("");
-    bad[3].clip_from_view[3][2] = 0;                    // no near plane
-    bad[4].clip_from_view[0][0] = 0;                    // no width
+    bad[3].clip_from_view[3][2] = 0; // no near plane
+    bad[4].clip_from_view[0][0] = 0; // no width
     for (std::size_t i = 0; i < bad.size(); ++i) {
         try {
             view.draw(bad[i], {kWidth, kHeight});
@@ -275,9 +292,11 @@ TEST_F(Views, MessagesGoToTheHost) {
 }
 
 TEST_F(Views, AnEyeComesBackToTheBit) {
-    for (const glm::dvec3 place : {glm::dvec3(0, 100, 0), glm::dvec3(-4321, 17, 9876), glm::dvec3(0.5, -2, 64)}) {
+    for (const glm::dvec3 place :
+         {glm::dvec3(0, 100, 0), glm::dvec3(-4321, 17, 9876), glm::dvec3(0.5, -2, 64)}) {
         for (const double yaw : {0.0, 33.3, 199.7}) {
-            EXPECT_EQ(eye_of(camera_of({place, yaw, -17.3, 12, 60, kNear_m}, 64, 48)), place) << yaw;
+            EXPECT_EQ(eye_of(camera_of({place, yaw, -17.3, 12, 60, kNear_m}, 64, 48)), place)
+                << yaw;
         }
     }
 }

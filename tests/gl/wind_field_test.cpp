@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The wind as a whole: ambient gusts, the window around the eye, and the answer that shaders and C++ share.
+// The wind as a whole: ambient gusts, the window around the eye, and the answer that shaders and
+// C++ share.
 #include "base/error.h"
 #include "gl/wind_fixture.h"
 #include "wind/wind.h"
@@ -27,7 +28,8 @@ std::unique_ptr<PlainInputs> pillar() {
 class WindTest : public GlTest {
 protected:
     /// What a shader gets at anchor-relative places.
-    std::vector<glm::dvec2> on_gpu(const Wind& wind, glm::dvec2 anchor, double time_s, const std::vector<glm::vec4>& places) {
+    std::vector<glm::dvec2> on_gpu(const Wind& wind, glm::dvec2 anchor, double time_s,
+                                   const std::vector<glm::vec4>& places) {
         shared::FrameConstants frame{};
         frame.wind = wind.field(anchor, time_s);
         gl::Buffer buffer(sizeof(frame));
@@ -35,7 +37,8 @@ protected:
         buffer.bind_uniform(BIND_FRAME);
         wind.bind();
         std::vector<glm::dvec2> out;
-        for (const glm::vec4& found : run_probe(shaders_, {"lib/wind.glsl"}, "    b.xy = wind_at(a.xy);", places)) {
+        for (const glm::vec4& found :
+             run_probe(shaders_, {"lib/wind.glsl"}, "    b.xy = wind_at(a.xy);", places)) {
             out.emplace_back(found.x, found.y);
         }
         return out;
@@ -44,7 +47,8 @@ protected:
         std::vector<glm::vec4> out;
         for (int i = 0; i < count; ++i) {
             const auto n = static_cast<std::uint64_t>(i);
-            out.emplace_back(reach * (2 * unit_at(3, n, 0) - 1), reach * (2 * unit_at(3, n, 1) - 1), 0, 0);
+            out.emplace_back(reach * (2 * unit_at(3, n, 0) - 1), reach * (2 * unit_at(3, n, 1) - 1),
+                             0, 0);
         }
         return out;
     }
@@ -103,7 +107,8 @@ TEST_F(WindTest, GustsTravelAndChange) {
     Wind wind(spec_of(5, 0.6), 0.1);
     wind.advance(10, {0, 0});
     wind.wait();
-    // Followed at the mean speed a gust hardly changes in some seconds; standing, one feels it pass.
+    // Followed at the mean speed a gust hardly changes in some seconds; standing, one feels it
+    // pass.
     double moving = 0, standing = 0;
     std::vector<glm::dvec2> before;
     for (int i = 0; i < 400; ++i) {
@@ -112,8 +117,10 @@ TEST_F(WindTest, GustsTravelAndChange) {
     wind.advance(16, {0, 0});
     wind.wait();
     for (int i = 0; i < 400; ++i) {
-        moving += glm::distance(wind.at(i * 17.0 + 6 * 4.9, i * 5.0, 16), before[static_cast<std::size_t>(i)]);
-        standing += glm::distance(wind.at(i * 17.0, i * 5.0, 16), before[static_cast<std::size_t>(i)]);
+        moving += glm::distance(wind.at(i * 17.0 + 6 * 4.9, i * 5.0, 16),
+                                before[static_cast<std::size_t>(i)]);
+        standing +=
+            glm::distance(wind.at(i * 17.0, i * 5.0, 16), before[static_cast<std::size_t>(i)]);
     }
     EXPECT_LT(moving, 0.5 * standing);
     EXPECT_GT(moving, 0.01 * standing);
@@ -121,14 +128,17 @@ TEST_F(WindTest, GustsTravelAndChange) {
 
 TEST_F(WindTest, TheTileDoesNotShow) {
     Wind wind(spec_of(5, 0.6), 0.1);
-    // Correlation of the gusts at every distance that the eye could find them at again: along both axes of both layers.
+    // Correlation of the gusts at every distance that the eye could find them at again: along both
+    // axes of both layers.
     const auto correlation = [&](glm::dvec2 shift) {
         double product = 0, square = 0;
         for (int i = 0; i < 4000; ++i) {
             const auto n = static_cast<std::uint64_t>(i);
             const glm::dvec2 place = 3000.0 * glm::dvec2(unit_at(5, n, 0), unit_at(5, n, 1));
-            const glm::dvec2 a = wind.at(place.x, place.y, 0) - glm::dvec2(5 * (1 - 0.25 * 0.27 * 0.27), 0);
-            const glm::dvec2 b = wind.at(place.x + shift.x, place.y + shift.y, 0) - glm::dvec2(5 * (1 - 0.25 * 0.27 * 0.27), 0);
+            const glm::dvec2 a =
+                wind.at(place.x, place.y, 0) - glm::dvec2(5 * (1 - 0.25 * 0.27 * 0.27), 0);
+            const glm::dvec2 b = wind.at(place.x + shift.x, place.y + shift.y, 0) -
+                                 glm::dvec2(5 * (1 - 0.25 * 0.27 * 0.27), 0);
             product += glm::dot(a, b);
             square += 0.5 * (glm::dot(a, a) + glm::dot(b, b));
         }
@@ -140,7 +150,8 @@ TEST_F(WindTest, TheTileDoesNotShow) {
     for (const double turn : {0.35, 0.35 + 2.39996322972865}) {
         for (const double scale : {1.0, 0.61803398874989}) {
             const glm::dvec2 along(std::cos(turn), std::sin(turn)), across(-along.y, along.x);
-            most = std::max({most, std::abs(correlation(along * tile * scale)), std::abs(correlation(across * tile * scale))});
+            most = std::max({most, std::abs(correlation(along * tile * scale)),
+                             std::abs(correlation(across * tile * scale))});
         }
     }
     EXPECT_LT(most, 0.75); // a single tile: 1
@@ -153,10 +164,13 @@ TEST_F(WindTest, SameAnswerFromEveryAnchor) {
         wind.wait();
         for (const glm::dvec2& place : {glm::dvec2(3, -8), glm::dvec2(-15000.25, 9876.5)}) {
             const glm::dvec2 truth = wind.at(place.x, place.y, time);
-            for (const glm::dvec2& anchor : {glm::dvec2(0), glm::dvec2(64, -128), glm::dvec2(-500, 700)}) {
+            for (const glm::dvec2& anchor :
+                 {glm::dvec2(0), glm::dvec2(64, -128), glm::dvec2(-500, 700)}) {
                 const glm::dvec2 base = glm::floor(place / 64.0) * 64.0 + anchor;
-                const auto found = on_gpu(wind, base, time, {glm::vec4(glm::vec2(place - base), 0, 0)});
-                EXPECT_LT(glm::length(found[0] - truth), 1e-4 * glm::length(truth)) << time << " " << anchor.x;
+                const auto found =
+                    on_gpu(wind, base, time, {glm::vec4(glm::vec2(place - base), 0, 0)});
+                EXPECT_LT(glm::length(found[0] - truth), 1e-4 * glm::length(truth))
+                    << time << " " << anchor.x;
             }
         }
     }
@@ -168,14 +182,16 @@ TEST_F(WindTest, ShadersAndCppAnswerAlike) {
     wind.wait();
     ASSERT_NE(wind.window(), nullptr);
     const glm::dvec2 anchor(64, 0);
-    const auto places = places_within(90, 2000); // the window, its rim, and the ambient wind around it
+    const auto places =
+        places_within(90, 2000); // the window, its rim, and the ambient wind around it
     const auto found = on_gpu(wind, anchor, 0.51, places);
     int inside = 0;
     const Wind ambient_alone(spec_of(5, 0.7), 0.1);
     for (std::size_t i = 0; i < places.size(); ++i) {
         const glm::dvec2 at = anchor + glm::dvec2(glm::vec2(places[i]));
         const glm::dvec2 truth = wind.at(at.x, at.y, 0.51);
-        ASSERT_LT(glm::length(found[i] - truth), 2e-5 * (1 + glm::length(truth))) << at.x << " " << at.y;
+        ASSERT_LT(glm::length(found[i] - truth), 2e-5 * (1 + glm::length(truth)))
+            << at.x << " " << at.y;
         inside += glm::length(truth - ambient_alone.at(at.x, at.y, 0.51)) > 0.05;
     }
     EXPECT_GT(inside, 20);

@@ -15,7 +15,8 @@ namespace sward::tests {
 class PlainInputs : public wind::FluidInputs {
 public:
     using Solid = std::function<bool(glm::dvec2 place)>; ///< world x, z of a cell's centre
-    using Push = std::function<void(const wind::FluidGrid& grid, std::vector<float>& u, std::vector<float>& v)>;
+    using Push = std::function<void(const wind::FluidGrid& grid, std::vector<float>& u,
+                                    std::vector<float>& v)>;
 
     Solid solid;
     glm::vec2 solid_velocity{0};
@@ -31,12 +32,14 @@ public:
         std::vector<std::uint32_t> mask(count);
         for (int y = 0; y < grid.cells; ++y) {
             for (int x = 0; x < grid.cells; ++x) {
-                mask[stored(grid, {x, y})] = solid(grid.origin_m + (glm::dvec2(x, y) + 0.5) * grid.cell_m);
+                mask[stored(grid, {x, y})] =
+                    solid(grid.origin_m + (glm::dvec2(x, y) + 0.5) * grid.cell_m);
             }
         }
         const std::vector<glm::vec2> speeds(count, solid_velocity);
         const_cast<gl::Buffer*>(grid.solid)->upload(mask.data(), count * sizeof(mask[0]));
-        const_cast<gl::Buffer*>(grid.solid_velocity)->upload(speeds.data(), count * sizeof(speeds[0]));
+        const_cast<gl::Buffer*>(grid.solid_velocity)
+            ->upload(speeds.data(), count * sizeof(speeds[0]));
         return true;
     }
     void apply_forces(const wind::FluidGrid& grid) override {
@@ -78,7 +81,8 @@ struct FluidState {
     [[nodiscard]] double mean_square() const {
         double sum = 0;
         for (std::size_t i = 0; i < u_.size(); ++i) {
-            sum += static_cast<double>(u_[i]) * static_cast<double>(u_[i]) + static_cast<double>(v_[i]) * static_cast<double>(v_[i]);
+            sum += static_cast<double>(u_[i]) * static_cast<double>(u_[i]) +
+                   static_cast<double>(v_[i]) * static_cast<double>(v_[i]);
         }
         return sum / static_cast<double>(u_.size());
     }
@@ -90,13 +94,16 @@ struct FluidState {
         }
         return most;
     }
-    [[nodiscard]] bool operator==(const FluidState& other) const { return u_ == other.u_ && v_ == other.v_; }
+    [[nodiscard]] bool operator==(const FluidState& other) const {
+        return u_ == other.u_ && v_ == other.v_;
+    }
 
     wind::FluidGrid grid;
     std::vector<float> u_, v_;
 };
 
-/// Divergence over speed / cell, both as root mean squares over the solved cells that are not solid.
+/// Divergence over speed / cell, both as root mean squares over the solved cells that are not
+/// solid.
 inline double divergence_share(const wind::Fluid& fluid, const PlainInputs::Solid& solid = {}) {
     const FluidState state(fluid);
     double sum = 0;
@@ -104,7 +111,8 @@ inline double divergence_share(const wind::Fluid& fluid, const PlainInputs::Soli
     const int first = fluid.inner_first(), end = first + fluid.inner_side();
     for (int y = first; y < end; ++y) {
         for (int x = first; x < end; ++x) {
-            if (!solid || !solid(state.grid.origin_m + (glm::dvec2(x, y) + 0.5) * state.grid.cell_m)) {
+            if (!solid ||
+                !solid(state.grid.origin_m + (glm::dvec2(x, y) + 0.5) * state.grid.cell_m)) {
                 sum += state.divergence(x, y) * state.divergence(x, y);
                 ++count;
             }

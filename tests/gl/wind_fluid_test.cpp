@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fluid solver held to what is known of fluids: no divergence, nothing through walls, decay at the analytic rate, a
-// vortex street at its Strouhal number, the same bits every time.
+// The fluid solver held to what is known of fluids: no divergence, nothing through walls, decay at
+// the analytic rate, a vortex street at its Strouhal number, the same bits every time.
 #include "gl/wind_fixture.h"
 
 namespace sward::tests {
@@ -22,14 +22,17 @@ protected:
         std::vector<float> u, v;
         for (int y = 0; y < n; ++y) {
             for (int x = 0; x < n; ++x) {
-                u.push_back(static_cast<float>(mean.x + std::sin(kTwoPi * x / n) * std::cos(kTwoPi * (y + 0.5) / n)));
-                v.push_back(static_cast<float>(mean.y - std::cos(kTwoPi * (x + 0.5) / n) * std::sin(kTwoPi * y / n)));
+                u.push_back(static_cast<float>(mean.x + std::sin(kTwoPi * x / n) *
+                                                            std::cos(kTwoPi * (y + 0.5) / n)));
+                v.push_back(static_cast<float>(mean.y - std::cos(kTwoPi * (x + 0.5) / n) *
+                                                            std::sin(kTwoPi * y / n)));
             }
         }
         fluid.set_state(u, v);
         return fluid;
     }
-    static void run(Fluid& fluid, PlainInputs& inputs, int steps, glm::vec2 mean = {0, 0}, int first = 0) {
+    static void run(Fluid& fluid, PlainInputs& inputs, int steps, glm::vec2 mean = {0, 0},
+                    int first = 0) {
         for (int i = first + 1; i <= first + steps; ++i) {
             fluid.step(inputs, i * fluid.settings().step_s, steady_wind(mean), kNoBrake_mps);
         }
@@ -46,7 +49,8 @@ TEST_F(WindFluid, TaylorGreenDecaysAtItsRate) {
     PlainInputs none;
     const double before = FluidState(fluid).mean_square();
     const double side = settings.cells * settings.cell_m, k = kTwoPi / side;
-    const int steps = static_cast<int>(side / settings.step_s); // a wave's length at the greatest speed
+    const int steps =
+        static_cast<int>(side / settings.step_s); // a wave's length at the greatest speed
     double last = before;
     for (int i = 0; i < steps; ++i) {
         run(fluid, none, 1);
@@ -63,7 +67,8 @@ TEST_F(WindFluid, WithoutViscosityEnergyHardlyFallsAndNeverGrows) {
     settings.cells = 64;
     settings.cell_m = 0.1;
     settings.step_s = 0.05;
-    Fluid fluid = taylor_green(settings, {0.7, -0.4}); // carried along, so that every interpolation is asked
+    Fluid fluid =
+        taylor_green(settings, {0.7, -0.4}); // carried along, so that every interpolation is asked
     PlainInputs none;
     const double before = FluidState(fluid).mean_square();
     double last = before;
@@ -105,8 +110,8 @@ TEST_F(WindFluid, LeavesNoDivergenceAndNothingGoesThroughWalls) {
     // A wall thinner than the coarse levels' cells, a block, and a ring that shuts air in.
     const auto solid = [](glm::dvec2 p) {
         const double ring = glm::distance(p, {16, 12});
-        return (std::abs(p.x + 10) < 0.5 && std::abs(p.y) < 30) || (std::abs(p.x - 12) < 6 && std::abs(p.y + 20) < 4) ||
-               (ring > 6 && ring < 7.5);
+        return (std::abs(p.x + 10) < 0.5 && std::abs(p.y) < 30) ||
+               (std::abs(p.x - 12) < 6 && std::abs(p.y + 20) < 4) || (ring > 6 && ring < 7.5);
     };
     FluidSettings settings;
     settings.cells = 200;
@@ -116,12 +121,15 @@ TEST_F(WindFluid, LeavesNoDivergenceAndNothingGoesThroughWalls) {
     inputs.solid = solid;
     fluid.move_to({-100, -100}, steady_wind({4, 1}));
     for (int i = 0; i < 12; ++i) {
-        run(fluid, inputs, i < 8 ? 1 : 13, {4, 1}, i < 8 ? i : 8 + 13 * (i - 8)); // the impulsive start too
+        run(fluid, inputs, i < 8 ? 1 : 13, {4, 1},
+            i < 8 ? i : 8 + 13 * (i - 8)); // the impulsive start too
         EXPECT_LT(divergence_share(fluid, solid), 1e-3) << i;
     }
     const FluidState state(fluid);
     int faces = 0;
-    const auto is_solid = [&](int x, int y) { return solid(state.grid.origin_m + (glm::dvec2(x, y) + 0.5) * state.grid.cell_m); };
+    const auto is_solid = [&](int x, int y) {
+        return solid(state.grid.origin_m + (glm::dvec2(x, y) + 0.5) * state.grid.cell_m);
+    };
     for (int y = fluid.inner_first(); y < fluid.inner_first() + fluid.inner_side(); ++y) {
         for (int x = fluid.inner_first() + 1; x < fluid.inner_first() + fluid.inner_side(); ++x) {
             if (is_solid(x, y) || is_solid(x - 1, y)) {
@@ -187,7 +195,10 @@ TEST_F(WindFluid, ACircleShedsAVortexStreet) {
         run(fluid, inputs, 1, {4, 0}, i);
         float v = 0;
         const auto grid = fluid.grid();
-        grid.v->read(&v, sizeof(v), PlainInputs::stored(grid, {96 + static_cast<int>((-12 + 3 * diameter) / 0.25), 96}) * sizeof(float));
+        grid.v->read(
+            &v, sizeof(v),
+            PlainInputs::stored(grid, {96 + static_cast<int>((-12 + 3 * diameter) / 0.25), 96}) *
+                sizeof(float));
         across.push_back(static_cast<double>(v));
     }
     // Rising crossings of 0 in the last part.
@@ -198,7 +209,8 @@ TEST_F(WindFluid, ACircleShedsAVortexStreet) {
         }
     }
     ASSERT_GE(crossings.size(), 4u);
-    const double period = (crossings.back() - crossings.front()) / static_cast<double>(crossings.size() - 1) * settings.step_s;
+    const double period = (crossings.back() - crossings.front()) /
+                          static_cast<double>(crossings.size() - 1) * settings.step_s;
     const double strouhal = diameter / period / speed;
     RecordProperty("strouhal", std::to_string(strouhal));
     EXPECT_GT(strouhal, 0.15);
@@ -237,7 +249,8 @@ TEST_F(WindFluid, AbsurdForcesPassAndCalmReturns) {
     for (int i = 0; i < 60; ++i) {
         fluid.step(inputs, (40 + i) / 60.0, steady_wind({4, 0}), calm_mps);
     }
-    EXPECT_LT(FluidState(fluid).fastest(), 1.5 * calm_mps); // eddies of the storm are left, at speeds that gusts have
+    EXPECT_LT(FluidState(fluid).fastest(),
+              1.5 * calm_mps); // eddies of the storm are left, at speeds that gusts have
 }
 
 TEST_F(WindFluid, SolidEverywhereStandsStillAndLetsGo) {
@@ -252,7 +265,8 @@ TEST_F(WindFluid, SolidEverywhereStandsStillAndLetsGo) {
     run(fluid, inputs, 10, {4, 0});
     const auto middle_mps = [&] {
         float u = 0;
-        fluid.grid().u->read(&u, sizeof(u), PlainInputs::stored(fluid.grid(), {32, 32}) * sizeof(float));
+        fluid.grid().u->read(&u, sizeof(u),
+                             PlainInputs::stored(fluid.grid(), {32, 32}) * sizeof(float));
         return u;
     };
     EXPECT_EQ(middle_mps(), 0);
@@ -290,7 +304,8 @@ TEST_F(WindFluid, CellsThatStayKeepTheirBitsWhenTheWindowMoves) {
     fluid.move_to({-48, -48}, steady_wind({5, 2}));
     run(fluid, inputs, 30, {5, 2});
     glm::ivec2 first(-48, -48);
-    for (const glm::ivec2 shift : {glm::ivec2(8, 0), glm::ivec2(-3, 17), glm::ivec2(95, -40), glm::ivec2(-200, 5)}) {
+    for (const glm::ivec2 shift :
+         {glm::ivec2(8, 0), glm::ivec2(-3, 17), glm::ivec2(95, -40), glm::ivec2(-200, 5)}) {
         const FluidState before(fluid);
         const auto cells_before = fluid.cells().read_all<glm::vec4>(96 * 96);
         fluid.move_to(first + shift, steady_wind({5, 2}));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrows, sources and obstacles on the GPU: the passes against the CPU's answer, and what the fluid makes of them.
+// Arrows, sources and obstacles on the GPU: the passes against the CPU's answer, and what the fluid
+// makes of them.
 #include "gl/wind_fixture.h"
 
 #include "shared/wind_grid.h"
@@ -15,9 +16,11 @@ using Source = scene::WindSource;
 struct GridOnGpu {
     GridOnGpu(int cells, double cell_m, glm::ivec2 first_cell) {
         const std::size_t count = static_cast<std::size_t>(cells) * cells;
-        u = gl::Buffer(count * 4), v = gl::Buffer(count * 4), solid = gl::Buffer(count * 4), inflow = gl::Buffer(count * 4);
+        u = gl::Buffer(count * 4), v = gl::Buffer(count * 4), solid = gl::Buffer(count * 4),
+        inflow = gl::Buffer(count * 4);
         solid_velocity = gl::Buffer(count * 8);
-        grid.u = &u, grid.v = &v, grid.solid = &solid, grid.solid_velocity = &solid_velocity, grid.inflow = &inflow;
+        grid.u = &u, grid.v = &v, grid.solid = &solid, grid.solid_velocity = &solid_velocity,
+        grid.inflow = &inflow;
         grid.cells = cells;
         grid.cell_m = cell_m;
         grid.first_cell = first_cell;
@@ -53,10 +56,11 @@ struct GridOnGpu {
     std::vector<float> start;
 };
 
-scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip, double strength,
-                       double radius) {
+scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root,
+                       glm::dvec2 tip, double strength, double radius) {
     scene::WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength, a.radius_m = radius;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength,
+    a.radius_m = radius;
     return a;
 }
 
@@ -72,8 +76,10 @@ Source source(Source::Kind kind, glm::dvec2 place, double strength, double radiu
 void add_box(scene::Mesh& mesh, glm::vec3 least, glm::vec3 most) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i < 8; ++i)
-        mesh.positions.emplace_back(i & 1 ? most.x : least.x, i & 2 ? most.y : least.y, i & 4 ? most.z : least.z);
-    const int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+        mesh.positions.emplace_back(i & 1 ? most.x : least.x, i & 2 ? most.y : least.y,
+                                    i & 4 ? most.z : least.z);
+    const int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                             {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& q : quads) {
         const auto corner = [&](int i) { return first + static_cast<std::uint32_t>(q[i]); };
         mesh.triangles.push_back({corner(0), corner(1), corner(2)});
@@ -87,10 +93,11 @@ protected:
     WindSources() {
         scene_.wind.cell_m = 0.5;
         scene_.paths["way"].keys = {{0, {300, 2, -80}, 30, 0}, {10, {340, 8, -60}, 90, 0}};
-        scene_.wind.arrows = {arrow("a", "", {310, -95}, {318, -90}, 9, 5), arrow("b", "a", {318, -90}, {326, -84}, 7, 4),
+        scene_.wind.arrows = {arrow("a", "", {310, -95}, {318, -90}, 9, 5),
+                              arrow("b", "a", {318, -90}, {326, -84}, 7, 4),
                               arrow("c", "", {330, -60}, {319, -80}, 12, 30)};
-        for (const auto kind : {Source::Kind::kRotor, Source::Kind::kJet, Source::Kind::kWake, Source::Kind::kCyclone,
-                                Source::Kind::kWave, Source::Kind::kFan}) {
+        for (const auto kind : {Source::Kind::kRotor, Source::Kind::kJet, Source::Kind::kWake,
+                                Source::Kind::kCyclone, Source::Kind::kWave, Source::Kind::kFan}) {
             scene_.wind.sources.push_back(source(kind, {322, -76}, 8, 3));
             scene_.wind.sources.back().height_m = 3;
             scene_.wind.sources.back().length_m = 14;
@@ -98,7 +105,8 @@ protected:
         }
         scene_.wind.sources[2].where = {{0, 0}, 0, "way"};
         scene_.wind.sources[3].where.place = {335, -65};
-        const auto obstacle = [&](scene::WindObstacle::Kind kind, glm::dvec2 place, glm::dvec2 size, double yaw) {
+        const auto obstacle = [&](scene::WindObstacle::Kind kind, glm::dvec2 place, glm::dvec2 size,
+                                  double yaw) {
             scene::WindObstacle one;
             one.kind = kind;
             one.where = {place, yaw, ""};
@@ -141,7 +149,9 @@ TEST_F(WindSources, SolidsAreTheCpusAndMoveAsTheirPath) {
                     owner = static_cast<int>(i);
             const std::size_t index = PlainInputs::stored(gpu.grid, {x, y});
             ASSERT_EQ(mask[index] != 0, owner >= 0) << x << " " << y;
-            const glm::vec2 speed = owner >= 0 ? shared::solid_velocity(solids[static_cast<std::size_t>(owner)], at) : glm::vec2(0);
+            const glm::vec2 speed =
+                owner >= 0 ? shared::solid_velocity(solids[static_cast<std::size_t>(owner)], at)
+                           : glm::vec2(0);
             ASSERT_NEAR(speeds[index].x, speed.x, 1e-4);
             ASSERT_NEAR(speeds[index].y, speed.y, 1e-4);
             filled += owner >= 0 ? 1 : 0;
@@ -167,7 +177,8 @@ TEST_F(WindSources, ForcesAreTheCpusAndTheSameBitsTwice) {
         GridOnGpu gpu(kCells, 0.5, kFirst);
         wind::Sources inputs = sources();
         inputs.apply_forces(gpu.grid);
-        const auto u = gpu.read<float>(gpu.u), v = gpu.read<float>(gpu.v), inflow = gpu.read<float>(gpu.inflow);
+        const auto u = gpu.read<float>(gpu.u), v = gpu.read<float>(gpu.v),
+                   inflow = gpu.read<float>(gpu.inflow);
         if (round == 1) {
             EXPECT_EQ(u, first);
             continue;
@@ -187,14 +198,23 @@ TEST_F(WindSources, ForcesAreTheCpusAndTheSameBitsTwice) {
                     const auto north = shared::wind_force_at(force, corner + glm::vec2(0.25f, 0));
                     wanted += glm::vec2(west.target.x * west.rate, north.target.y * north.rate);
                     rate += glm::vec2(west.rate, north.rate);
-                    divergence += (shared::wind_force_at(force, corner + glm::vec2(0.5f, 0.25f)).outflow.x - west.outflow.x +
-                                   shared::wind_force_at(force, corner + glm::vec2(0.25f, 0.5f)).outflow.y - north.outflow.y) / 0.5f;
+                    divergence +=
+                        (shared::wind_force_at(force, corner + glm::vec2(0.5f, 0.25f)).outflow.x -
+                         west.outflow.x +
+                         shared::wind_force_at(force, corner + glm::vec2(0.25f, 0.5f)).outflow.y -
+                         north.outflow.y) /
+                        0.5f;
                 }
                 const std::size_t index = PlainInputs::stored(gpu.grid, {x, y});
                 const auto step = static_cast<float>(gpu.grid.step_s);
-                ASSERT_NEAR(u[index], shared::relaxed(gpu.start[index], wanted.x, rate.x, step), 2e-3) << x << " " << y;
-                ASSERT_NEAR(v[index], shared::relaxed(gpu.start[index], wanted.y, rate.y, step), 2e-3) << x << " " << y;
-                ASSERT_NEAR(inflow[index], divergence, 5e-3 * (1 + std::abs(divergence))) << x << " " << y;
+                ASSERT_NEAR(u[index], shared::relaxed(gpu.start[index], wanted.x, rate.x, step),
+                            2e-3)
+                    << x << " " << y;
+                ASSERT_NEAR(v[index], shared::relaxed(gpu.start[index], wanted.y, rate.y, step),
+                            2e-3)
+                    << x << " " << y;
+                ASSERT_NEAR(inflow[index], divergence, 5e-3 * (1 + std::abs(divergence)))
+                    << x << " " << y;
                 changed += u[index] != gpu.start[index] ? 1 : 0;
             }
         EXPECT_GT(changed, 1000);
@@ -211,7 +231,8 @@ TEST_F(WindSources, InflowSumsToNothingAndGoesWithItsSource) {
     inputs.apply_forces(gpu.grid);
     double sum = 0, most = 0;
     for (const float value : gpu.read<float>(gpu.inflow))
-        sum += static_cast<double>(value), most = std::max(most, std::abs(static_cast<double>(value)));
+        sum += static_cast<double>(value),
+            most = std::max(most, std::abs(static_cast<double>(value)));
     EXPECT_GT(most, 2);
     EXPECT_LT(std::abs(sum), 1e-3 * most);
     gpu.grid.time_s = 6;
@@ -230,7 +251,8 @@ protected:
         scene_.wind.cell_m = settings_.cell_m;
     }
     void start() {
-        sources_ = std::make_unique<wind::Sources>(scene_, wind::Meshes{}, [](double, double) { return 0.0; });
+        sources_ = std::make_unique<wind::Sources>(scene_, wind::Meshes{},
+                                                   [](double, double) { return 0.0; });
         fluid_ = std::make_unique<wind::Fluid>(settings_);
         fluid_->move_to(glm::ivec2(-settings_.cells / 2), steady_wind({0, 0}));
         steps_ = 0;
@@ -255,8 +277,10 @@ protected:
 
 TEST_F(WindDriven, AGustReachesTheTipsOfATreeInOrder) {
     // 8 m at 8 m/s each: an arrow a second, then two at once.
-    scene_.wind.arrows = {arrow("root", "", {-18, 0}, {-10, 0}, 8, 2.5), arrow("stem", "root", {-10, 0}, {-2, 0}, 8, 2.5),
-                          arrow("left", "stem", {-2, 0}, {3.657, -5.657}, 8, 2.5), arrow("right", "stem", {-2, 0}, {3.657, 5.657}, 8, 2.5)};
+    scene_.wind.arrows = {arrow("root", "", {-18, 0}, {-10, 0}, 8, 2.5),
+                          arrow("stem", "root", {-10, 0}, {-2, 0}, 8, 2.5),
+                          arrow("left", "stem", {-2, 0}, {3.657, -5.657}, 8, 2.5),
+                          arrow("right", "stem", {-2, 0}, {3.657, 5.657}, 8, 2.5)};
     const auto spans = wind::arrow_spans(scene_.wind.arrows);
     start();
     std::vector<double> reached(scene_.wind.arrows.size(), -1);
@@ -265,7 +289,8 @@ TEST_F(WindDriven, AGustReachesTheTipsOfATreeInOrder) {
         for (std::size_t i = 0; i < reached.size(); ++i) {
             const scene::WindArrow& a = scene_.wind.arrows[i];
             const double along = glm::dot(velocity(a.tip), glm::normalize(a.tip - a.root));
-            EXPECT_LE(along, 8 * 1.25) << "a push ends at its strength; the vortices of a starting jet add a little";
+            EXPECT_LE(along, 8 * 1.25)
+                << "a push ends at its strength; the vortices of a starting jet add a little";
             if (reached[i] < 0 && along >= 4)
                 reached[i] = time;
         }
@@ -273,7 +298,8 @@ TEST_F(WindDriven, AGustReachesTheTipsOfATreeInOrder) {
     for (std::size_t i = 0; i < reached.size(); ++i) {
         const scene::WindArrow& a = scene_.wind.arrows[i];
         ASSERT_GT(reached[i], 0) << a.id;
-        EXPECT_LE(reached[i], spans[i].start_s + glm::distance(a.root, a.tip) / a.strength_mps) << a.id << ": within the time of flight";
+        EXPECT_LE(reached[i], spans[i].start_s + glm::distance(a.root, a.tip) / a.strength_mps)
+            << a.id << ": within the time of flight";
         EXPECT_GT(reached[i], spans[i].start_s - 0.35) << a.id << ": not long before its turn";
     }
     EXPECT_LT(reached[0] + 0.3, reached[1]);
@@ -302,7 +328,8 @@ TEST_F(WindDriven, ACycloneTurnsTheAirAndDrawsItIn) {
     for (const double angle : {0.3, 1.5, 2.9, 4.4}) {
         const glm::dvec2 out(std::cos(angle), std::sin(angle));
         const glm::dvec2 at = velocity(glm::dvec2(0.25) + out * 4.0);
-        const double around = at.x * out.y - at.y * out.x; // counter-clockwise from above: z is south
+        const double around =
+            at.x * out.y - at.y * out.x; // counter-clockwise from above: z is south
         EXPECT_GT(around, 8) << angle;
         EXPECT_LT(around, 14) << angle;
         EXPECT_LT(glm::dot(at, out), -1) << angle;
@@ -312,8 +339,10 @@ TEST_F(WindDriven, ACycloneTurnsTheAirAndDrawsItIn) {
 }
 
 TEST_F(WindDriven, NothingAbsurdMakesItUnsteady) {
-    scene_.wind.arrows = {arrow("a", "", {-5, 0}, {0, 0}, 300, 0.01), arrow("b", "", {5, 0.1}, {0, 0.1}, 300, 1000)};
-    scene_.wind.sources = {source(Source::Kind::kCyclone, {4, 4}, 300, 0.05), source(Source::Kind::kFan, {-4, 4}, 300, 0.05),
+    scene_.wind.arrows = {arrow("a", "", {-5, 0}, {0, 0}, 300, 0.01),
+                          arrow("b", "", {5, 0.1}, {0, 0.1}, 300, 1000)};
+    scene_.wind.sources = {source(Source::Kind::kCyclone, {4, 4}, 300, 0.05),
+                           source(Source::Kind::kFan, {-4, 4}, 300, 0.05),
                            source(Source::Kind::kWave, {0, 0}, 300, 1000)};
     scene_.wind.sources[2].wavelength_m = 0.5;
     start();
@@ -324,7 +353,8 @@ TEST_F(WindDriven, NothingAbsurdMakesItUnsteady) {
 
 TEST_F(WindDriven, TheSameScenesGiveTheSameBits) {
     scene_.wind.arrows = {arrow("a", "", {-8, 0}, {-3, 1}, 9, 3)};
-    scene_.wind.sources = {source(Source::Kind::kCyclone, {5, 4}, 9, 2), source(Source::Kind::kFan, {5, -9}, 5, 2)};
+    scene_.wind.sources = {source(Source::Kind::kCyclone, {5, 4}, 9, 2),
+                           source(Source::Kind::kFan, {5, -9}, 5, 2)};
     scene::WindObstacle obstacle;
     obstacle.where.place = {3, 0};
     obstacle.size = {2, 2};

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Culling (J7) on the hills of the nature scene: what it takes, and that nothing is missed. The same figures must catch culling that takes
+"""Culling (J7) on the hills of the nature scene: what it takes, and that nothing is missed. The
+same figures must catch culling that takes
 too much: blades that do not widen."""
+
 import re
 import shutil
 
@@ -37,12 +39,19 @@ class Culling(ImageCase):
 
     @classmethod
     def picture(cls, tests, shaders=None, thin_out=None):
-        """Display picture, channels and counts with these tests; thin_out_m in place of the scene's."""
+        """Display picture, channels and counts with these tests; thin_out_m in place of the
+        scene's."""
         text = cls.scene()
         assert text.count("thin_out_m = ") == 1
-        (cls.dir / "scene.toml").write_text(text if thin_out is None else re.sub(r"thin_out_m = \S+", f"thin_out_m = {thin_out}", text))
+        (cls.dir / "scene.toml").write_text(
+            text
+            if thin_out is None
+            else re.sub(r"thin_out_m = \S+", f"thin_out_m = {thin_out}", text)
+        )
         options = ("--camera", "default", "--cull", tests)
-        path, stats = cls.render("out.exr", *options, "--aov", "color,coverage", size=SIZE, shaders=shaders)
+        path, stats = cls.render(
+            "out.exr", *options, "--aov", "color,coverage", size=SIZE, shaders=shaders
+        )
         channels = sward_image.load_exr(path)
         png, _ = cls.render("out.png", *options, size=SIZE, shaders=shaders)
         return sward_image.load_png(png), channels, stats["blades"]
@@ -50,27 +59,42 @@ class Culling(ImageCase):
     def figures(self, found):
         picture, channels, _ = found
         base, base_channels, _ = self.found["none"]
-        light = metrics.mean_luminance(channels["color"]) / metrics.mean_luminance(base_channels["color"])
+        light = metrics.mean_luminance(channels["color"]) / metrics.mean_luminance(
+            base_channels["color"]
+        )
         coverage = channels["coverage"].mean(), base_channels["coverage"].mean()
-        return {"flip": flip_mean(base, picture), "luminance": light - 1, "coverage": coverage[0] / coverage[1] - 1,
-                "points": coverage[0] - coverage[1]}
+        return {
+            "flip": flip_mean(base, picture),
+            "luminance": light - 1,
+            "coverage": coverage[0] / coverage[1] - 1,
+            "points": coverage[0] - coverage[1],
+        }
 
     def test_most_is_culled_and_nothing_is_missed(self):
         blades = self.found[",".join(TESTS)][2]
         seen, drawn = blades["considered"], blades["drawn"]
-        print(f"of {seen} blades of visible patches {1 - drawn / seen:.1%} culled: " +
-              ", ".join(f"{name} {blades['culled'][name] / seen:.1%}" for name in TESTS), flush=True)
+        print(
+            f"of {seen} blades of visible patches {1 - drawn / seen:.1%} culled: "
+            + ", ".join(f"{name} {blades['culled'][name] / seen:.1%}" for name in TESTS),
+            flush=True,
+        )
         self.assertEqual(seen, drawn + sum(blades["culled"].values()))
         self.assertGreaterEqual(1 - drawn / seen, CULLED)
         figures = self.figures(self.found[",".join(TESTS)])
-        print("all tests: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()), flush=True)
+        print(
+            "all tests: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()),
+            flush=True,
+        )
         self.assertLessEqual(figures["flip"], FLIP)
         self.assertLessEqual(abs(figures["luminance"]), CLOSE)
         self.assertLessEqual(abs(figures["coverage"]), CLOSE)
 
     def test_distance_keeps_coverage(self):
         figures = self.figures(self.picture("distance", thin_out=THIN_OUT))
-        print("distance: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()), flush=True)
+        print(
+            "distance: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()),
+            flush=True,
+        )
         self.assertLessEqual(abs(figures["points"]), POINTS)
 
     def test_blades_that_do_not_widen_are_found(self):
@@ -81,7 +105,10 @@ class Culling(ImageCase):
         assert text.count("0.0f, 1.0f) / mean;") == 1
         file.write_text(text.replace("0.0f, 1.0f) / mean;", "0.0f, 1.0f);"))
         figures = self.figures(self.picture("distance", shaders=target, thin_out=THIN_OUT))
-        print("not widened: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()), flush=True)
+        print(
+            "not widened: " + ", ".join(f"{name} {value:+.4f}" for name, value in figures.items()),
+            flush=True,
+        )
         self.assertGreater(abs(figures["points"]), POINTS)
 
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The measures of the far field on pictures whose answers are known: waves, noise, ramps, tiles, rings, colours."""
+"""The measures of the far field on pictures whose answers are known: waves, noise, ramps, tiles,
+rings, colours."""
+
 import unittest
 
 import numpy as np
@@ -27,13 +29,18 @@ class Contrast(unittest.TestCase):
             left = [1.0] + [np.exp(-2 * (np.pi * s / length) ** 2) for s in spectrum.SIGMAS]
             expected = 0.2 / np.sqrt(2) * np.abs(np.diff(left))
             found = spectrum.contrast(waves(length))
-            self.assertTrue(np.allclose(found, expected, rtol=0.05, atol=0.005), f"{length}: {found}, {expected}")
+            self.assertTrue(
+                np.allclose(found, expected, rtol=0.05, atol=0.005),
+                f"{length}: {found}, {expected}",
+            )
 
     def test_noise(self):
         """White noise less its blur by one pixel, from the kernel's own weights."""
         kernel = spectrum.blurred(np.pad([[1.0]], 20), 1)
-        expected = 0.2 * np.sqrt(1 - 2 * kernel.max() + (kernel ** 2).sum())
-        self.assertAlmostEqual(spectrum.contrast(noise((200, 200)))[0], expected, delta=0.03 * expected)
+        expected = 0.2 * np.sqrt(1 - 2 * kernel.max() + (kernel**2).sum())
+        self.assertAlmostEqual(
+            spectrum.contrast(noise((200, 200)))[0], expected, delta=0.03 * expected
+        )
 
     def test_blur_keeps(self):
         self.assertTrue(np.allclose(spectrum.blurred(np.full((20, 30), 3.0), 8), 3))
@@ -42,11 +49,15 @@ class Contrast(unittest.TestCase):
         self.assertTrue(np.allclose(sum(spectrum.octaves(values)).reshape(64, 64) + rest, values))
 
     def test_ratio_is_free_of_noise(self):
-        """Against one noisy render the truth itself would seem too smooth; against what two have in common it does not."""
+        """Against one noisy render the truth itself would seem too smooth; against what two have in
+        common it does not."""
         truth = spectrum.blurred(noise((160, 160), 0.5), 1)
         a, b = (truth * noise(truth.shape, 0.2, seed, mean=1) for seed in (2, 3))
         self.assertLess(spectrum.contrast(truth)[0] / spectrum.contrast(a)[0], 0.6)
-        self.assertTrue(np.allclose(spectrum.contrast_ratio(truth, a, b), 1, atol=0.06), spectrum.contrast_ratio(truth, a, b))
+        self.assertTrue(
+            np.allclose(spectrum.contrast_ratio(truth, a, b), 1, atol=0.06),
+            spectrum.contrast_ratio(truth, a, b),
+        )
         louder = 0.5 + 2 * (truth - 0.5)
         self.assertTrue(np.allclose(spectrum.contrast_ratio(louder, a, b), 2, atol=0.12))
 
@@ -61,8 +72,14 @@ class Contrast(unittest.TestCase):
         land = np.ones(values.shape, dtype=bool)
         land[:48] = False
         under_sky = np.where(land, values, 20.0)
-        self.assertTrue(np.allclose(spectrum.contrast(under_sky, land), spectrum.contrast(values[48:]), rtol=0.15))
-        self.assertRaisesRegex(NoPicture, "land", spectrum.contrast, values, np.zeros(values.shape, dtype=bool))
+        self.assertTrue(
+            np.allclose(
+                spectrum.contrast(under_sky, land), spectrum.contrast(values[48:]), rtol=0.15
+            )
+        )
+        self.assertRaisesRegex(
+            NoPicture, "land", spectrum.contrast, values, np.zeros(values.shape, dtype=bool)
+        )
 
 
 class Sparkle(unittest.TestCase):
@@ -74,7 +91,8 @@ class Sparkle(unittest.TestCase):
         self.assertAlmostEqual(spectrum.common_sparkle((ramp, ramp), (moved, moved)), 0.01)
 
     def test_rare(self):
-        """One pixel in fifty that flashes is more than the percentile lets go; one in a thousand is not."""
+        """One pixel in fifty that flashes is more than the percentile lets go; one in a thousand is
+        not."""
         still = np.full((100, 100), 0.5)
         still[0, 0] = 0.51
         flashes = still.copy()
@@ -85,10 +103,17 @@ class Sparkle(unittest.TestCase):
         self.assertLess(spectrum.sparkle(still, few), 0.01)
 
     def test_noise_is_freed(self):
-        """Two noisy renders of a picture and of the moved one: the change they have in common, not the noise."""
+        """Two noisy renders of a picture and of the moved one: the change they have in common, not
+        the noise."""
         fine = spectrum.blurred(noise((400, 400), 1.0), 4)
         still, moved = fine[::4, ::4], fine[::4, 1::4]
-        renders = [[p + 0.02 * np.random.default_rng(seed + i).standard_normal(p.shape) for i, p in enumerate((still, moved))] for seed in (10, 20)]
+        renders = [
+            [
+                p + 0.02 * np.random.default_rng(seed + i).standard_normal(p.shape)
+                for i, p in enumerate((still, moved))
+            ]
+            for seed in (10, 20)
+        ]
         pair, later = ([r[i] for r in renders] for i in (0, 1))
         truth = spectrum.sparkle(still, moved)
         self.assertGreater(spectrum.sparkle(pair[0], later[0]), 2 * truth)
@@ -97,7 +122,8 @@ class Sparkle(unittest.TestCase):
 
 class Period(unittest.TestCase):
     def test_tiles(self):
-        """Grass without a period has no peak; a tile of 2 m among it has, and more the more of it there is."""
+        """Grass without a period has no peak; a tile of 2 m among it has, and more the more of it
+        there is."""
         grass = noise((160, 160))
         tile = np.tile(noise((16, 16), seed=5), (10, 10)) - 0.5  # 8 pixels a metre
         self.assertLess(spectrum.period(grass, 8), 2)
@@ -109,13 +135,23 @@ class Period(unittest.TestCase):
         self.assertRaisesRegex(NoPicture, "periods", spectrum.period, noise((48, 48)), 8)
 
     def test_ground(self):
-        """A pattern of the ground's plane, seen at 60 degrees and laid out flat again, is the pattern."""
+        """A pattern of the ground's plane, seen at 60 degrees and laid out flat again, is the
+        pattern."""
         view = far_views.View(60, 24, 30)
-        elevation, half = np.radians(view.elevation), (far_views.ROWS / 2 - 0.5, far_views.COLUMNS / 2 - 0.5)
-        up, right = np.meshgrid((half[0] - np.arange(far_views.ROWS)) / view.focal, (np.arange(far_views.COLUMNS) - half[1]) / view.focal, indexing="ij")
+        elevation, half = (
+            np.radians(view.elevation),
+            (far_views.ROWS / 2 - 0.5, far_views.COLUMNS / 2 - 0.5),
+        )
+        up, right = np.meshgrid(
+            (half[0] - np.arange(far_views.ROWS)) / view.focal,
+            (np.arange(far_views.COLUMNS) - half[1]) / view.focal,
+            indexing="ij",
+        )
         height = view.distance * np.sin(elevation) - far_views.CANOPY_M
         depth = height / (np.sin(elevation) - up * np.cos(elevation))
-        forward = depth * np.cos(elevation) + depth * up * np.sin(elevation) - height / np.tan(elevation)
+        forward = (
+            depth * np.cos(elevation) + depth * up * np.sin(elevation) - height / np.tan(elevation)
+        )
         shape = lambda x, z: 1 + 0.3 * np.sin(np.pi * x) * np.cos(np.pi * z)  # noqa: E731
         seen = far_views.ground_picture(shape(right * depth, forward), view, 8)
         at = np.arange(seen.shape[0]) / 8 - seen.shape[0] / 16
@@ -150,8 +186,12 @@ class Ring(unittest.TestCase):
         self.assertLess(light, 0.05)
 
     def test_refuses(self):
-        self.assertRaisesRegex(NoPicture, "falling", spectrum.ring, self.field(), self.distance[::-1])
-        self.assertRaisesRegex(NoPicture, "bands", spectrum.ring, self.field()[:12], self.distance[:12])
+        self.assertRaisesRegex(
+            NoPicture, "falling", spectrum.ring, self.field(), self.distance[::-1]
+        )
+        self.assertRaisesRegex(
+            NoPicture, "bands", spectrum.ring, self.field()[:12], self.distance[:12]
+        )
 
 
 class Hue(unittest.TestCase):
@@ -165,7 +205,9 @@ class Hue(unittest.TestCase):
         """sRGB's primaries in CIE Lab (D65)."""
         self.assertTrue(np.allclose(spectrum.hue(self.colour(1, 1, 1)), 0, atol=0.02))
         self.assertTrue(np.allclose(spectrum.hue(self.colour(1, 0, 0)), [80.09, 67.20], atol=0.05))
-        self.assertTrue(np.allclose(spectrum.hue(self.colour(0, 0, 1)), [79.19, -107.86], atol=0.05))
+        self.assertTrue(
+            np.allclose(spectrum.hue(self.colour(0, 0, 1)), [79.19, -107.86], atol=0.05)
+        )
 
     def test_difference(self):
         grass = self.colour(0.08, 0.15, 0.03)
@@ -173,7 +215,12 @@ class Hue(unittest.TestCase):
         self.assertGreater(spectrum.hue_difference(grass, self.colour(0.09, 0.15, 0.03)), 2)
 
     def test_display(self):
-        self.assertTrue(np.allclose(spectrum.displayed([0, 0.5 / 0.62, 100]), [0, (0.5 * 1.285) / (0.5 * 1.805 + 0.14), 1]))
+        self.assertTrue(
+            np.allclose(
+                spectrum.displayed([0, 0.5 / 0.62, 100]),
+                [0, (0.5 * 1.285) / (0.5 * 1.805 + 0.14), 1],
+            )
+        )
 
 
 class Reference(unittest.TestCase):

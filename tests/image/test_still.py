@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A still scene gives still pictures, and the figures of the other image tests catch what they are for: a pop that means
+"""A still scene gives still pictures, and the figures of the other image tests catch what they are
+for: a pop that means
 miss, a black frame, a number that is none."""
+
 import unittest
 
 import numpy as np
@@ -26,16 +28,22 @@ class Still(ImageCase):
         """Blades and the far field in one picture, in wind: the same bytes."""
         arguments = ("--camera", "road", "--time", "2.5")
         first, stats = self.render("a.png", *arguments)
-        self.assertTrue(first.read_bytes() == self.render("b.png", *arguments)[0].read_bytes(), "different bytes")
+        self.assertTrue(
+            first.read_bytes() == self.render("b.png", *arguments)[0].read_bytes(),
+            "different bytes",
+        )
         sward_image.load_png(first)
         self.assertGreater(stats["blades"]["drawn"], 0)
         self.assertGreater(sum(stats["fragments"].values()), 0)
 
     def test_there_and_back(self):
-        """Tiers chosen from half a metre ahead leave no trace in the next frame drawn from the eye itself."""
+        """Tiers chosen from half a metre ahead leave no trace in the next frame drawn from the eye
+        itself."""
         arguments = ("--camera", "road", "--time", "2.5", "--aov", "color,tier")
         first = sward_image.load_exr(self.render("a.exr", *arguments)[0])
-        ahead = sward_image.load_exr(self.render("b.exr", *arguments, "--lod-eye", "0.7,1.5,3.5")[0])
+        ahead = sward_image.load_exr(
+            self.render("b.exr", *arguments, "--lod-eye", "0.7,1.5,3.5")[0]
+        )
         back = sward_image.load_exr(self.render("c.exr", *arguments)[0])
         self.assertTrue((first["tier"] != ahead["tier"]).any())
         self.assertTrue((first["color"] == back["color"]).all())
@@ -51,7 +59,10 @@ class Loader(ImageCase):
         return self.dir / "t.png"
 
     def save_exr(self, pixels):
-        channels = {name: np.ascontiguousarray(pixels[..., i], dtype=np.float32) for i, name in enumerate("RGB")}
+        channels = {
+            name: np.ascontiguousarray(pixels[..., i], dtype=np.float32)
+            for i, name in enumerate("RGB")
+        }
         header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
         OpenEXR.File(header, channels).write(str(self.dir / "t.exr"))
         return self.dir / "t.exr"
@@ -63,15 +74,23 @@ class Loader(ImageCase):
 
     def test_black(self):
         black = np.zeros((36, 64, 3))
-        self.assertRaisesRegex(metrics.NoPicture, "black", sward_image.load_png, self.save_png(black))
-        self.assertRaisesRegex(metrics.NoPicture, "black", sward_image.load_exr, self.save_exr(black))
-        self.assertRaisesRegex(metrics.NoPicture, "colour", sward_image.load_png, self.save_png(black + 40))
+        self.assertRaisesRegex(
+            metrics.NoPicture, "black", sward_image.load_png, self.save_png(black)
+        )
+        self.assertRaisesRegex(
+            metrics.NoPicture, "black", sward_image.load_exr, self.save_exr(black)
+        )
+        self.assertRaisesRegex(
+            metrics.NoPicture, "colour", sward_image.load_png, self.save_png(black + 40)
+        )
 
     def test_not_finite(self):
         for value in (np.nan, np.inf):
             pixels = noise((36, 64))
             pixels[20, 30, 1] = value
-            self.assertRaisesRegex(metrics.NoPicture, "finite", sward_image.load_exr, self.save_exr(pixels))
+            self.assertRaisesRegex(
+                metrics.NoPicture, "finite", sward_image.load_exr, self.save_exr(pixels)
+            )
             self.assertRaises(metrics.NoPicture, metrics.pair, pixels, noise((36, 64)))
 
     def test_missing(self):
@@ -83,14 +102,18 @@ class Loader(ImageCase):
 class Figures(unittest.TestCase):
     def test_identical(self):
         picture = noise((180, 320))
-        self.assertEqual(metrics.pair(picture, picture), {"tile16": 0, "signed8": 0, "flip": 0, "over16_percent": 0})
+        self.assertEqual(
+            metrics.pair(picture, picture),
+            {"tile16": 0, "signed8": 0, "flip": 0, "over16_percent": 0},
+        )
 
     def test_pop(self):
-        """A tree of 2 x 40 pixels in 640 x 360: too small for any mean, caught by the local maxima wherever it stands."""
+        """A tree of 2 x 40 pixels in 640 x 360: too small for any mean, caught by the local maxima
+        wherever it stands."""
         before = noise((360, 640))
         for x, y in ((300, 150), (317, 163), (0, 0), (638, 320)):
             after = before.copy()
-            after[y:y + 40, x:x + 2] = 0
+            after[y : y + 40, x : x + 2] = 0
             figures = metrics.pair(before, after)
             self.assertLess(metrics.mean_difference(before, after), 0.05)
             self.assertLess(figures["over16_percent"], metrics.PAIR_LIMITS["over16_percent"])
@@ -98,7 +121,8 @@ class Figures(unittest.TestCase):
             self.assertIn("signed8", metrics.over_limits(figures))
 
     def test_each_limit(self):
-        """What each figure alone is for: a shift of brightness that is even, noise without one, a speckle."""
+        """What each figure alone is for: a shift of brightness that is even, noise without one, a
+        speckle."""
         before = noise((180, 320))
         darker = metrics.pair(before, before - 10)
         self.assertAlmostEqual(darker["tile16"], 10)

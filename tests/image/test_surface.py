@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Fur on a ball: its far field from 1 m to 50 m against its blades alone. Coverage, luminance, and the outline: how far hair stands out of the
+"""Fur on a ball: its far field from 1 m to 50 m against its blades alone. Coverage, luminance, and
+the outline: how far hair stands out of the
 skin around the ball, and how unevenly. The same figures must catch a ball with half its fur."""
+
 import json
 import math
 import sys
@@ -13,12 +15,14 @@ from sward_image import ImageCase, sward_cli
 sys.path.insert(0, str(sward_cli.SOURCE / "scripts"))
 from make_mesh_samples import Mesh  # noqa: E402
 
-COVERAGE = 0.04   # percentage points / 100
-LUMINANCE = 0.095  # of the truth's; 0.04 is asked for. The factor on the light knows level ground alone
-HAIR = 0.15       # of the truth's mean height of hair over the outline
+COVERAGE = 0.04  # percentage points / 100
+LUMINANCE = (
+    0.095  # of the truth's; 0.04 is asked for. The factor on the light knows level ground alone
+)
+HAIR = 0.15  # of the truth's mean height of hair over the outline
 RAGGED = (0.6, 1.6)  # its unevenness along the outline, over the truth's
 RADIUS = 0.25
-HALF = 0.34       # of the picture, metres at the ball; no field of view is below a degree
+HALF = 0.34  # of the picture, metres at the ball; no field of view is below a degree
 SIZE = 96
 DISTANCES = (1, 5, 20, 50)
 ELEVATION = 0.35  # of the eye, seen from the ball
@@ -64,15 +68,27 @@ def write_ball(path, rings=64):
     points = [(0, RADIUS, 0), (0, -RADIUS, 0)]
     for j in range(1, rings):
         polar = math.pi * j / rings
-        points += [(RADIUS * math.sin(polar) * math.cos(math.pi * i / rings), RADIUS * math.cos(polar),
-                    RADIUS * math.sin(polar) * math.sin(math.pi * i / rings)) for i in range(columns)]
+        points += [
+            (
+                RADIUS * math.sin(polar) * math.cos(math.pi * i / rings),
+                RADIUS * math.cos(polar),
+                RADIUS * math.sin(polar) * math.sin(math.pi * i / rings),
+            )
+            for i in range(columns)
+        ]
     triangles = []
     for i in range(columns):
         left, right = i, (i + 1) % columns
-        triangles += [(0, 2 + right, 2 + left), (1, 2 + (rings - 2) * columns + left, 2 + (rings - 2) * columns + right)]
+        triangles += [
+            (0, 2 + right, 2 + left),
+            (1, 2 + (rings - 2) * columns + left, 2 + (rings - 2) * columns + right),
+        ]
         for j in range(rings - 2):
             above, below = 2 + j * columns, 2 + (j + 1) * columns
-            triangles += [(above + left, above + right, below + right), (above + left, below + right, below + left)]
+            triangles += [
+                (above + left, above + right, below + right),
+                (above + left, below + right, below + left),
+            ]
     mesh.add(points, triangles)
     mesh.write(path)
 
@@ -82,56 +98,112 @@ def half_of(distance):
 
 
 def pose(distance):
-    return (f"[camera.at{distance}]\nposition = [0, {distance * math.sin(ELEVATION)}, {distance * math.cos(ELEVATION)}]\nagl = false\n"
-            f"pitch_deg = {-math.degrees(ELEVATION)}\nfov_deg = {2 * math.degrees(math.atan(half_of(distance) / distance))}\n")
+    return (
+        f"[camera.at{distance}]\nposition = [0, {distance * math.sin(ELEVATION)}, {distance * math.cos(ELEVATION)}]\nagl = false\n"
+        f"pitch_deg = {-math.degrees(ELEVATION)}\nfov_deg = {2 * math.degrees(math.atan(half_of(distance) / distance))}\n"
+    )
 
 
 def outline(coverage, distance):
-    """Mean and standard deviation, over sixty directions, of the height (m) of the hair that stands beyond the skin's outline."""
+    """Mean and standard deviation, over sixty directions, of the height (m) of the hair that stands
+    beyond the skin's outline."""
     size = coverage.shape[0]
     pixel = 2 * half_of(distance) / size
     y, x = (np.mgrid[:size, :size] + 0.5 - size / 2) * pixel / distance
     tangent = np.hypot(x, y)
-    beyond = distance * tangent / np.sqrt(1 + tangent ** 2) > RADIUS
+    beyond = distance * tangent / np.sqrt(1 + tangent**2) > RADIUS
     sector = np.clip(((np.arctan2(y, x) + np.pi) / (2 * np.pi) * 60).astype(int), 0, 59)
-    heights = np.array([coverage[beyond & (sector == k)].sum() for k in range(60)]) * pixel ** 2 * 60 / (2 * np.pi * RADIUS)
+    heights = (
+        np.array([coverage[beyond & (sector == k)].sum() for k in range(60)])
+        * pixel**2
+        * 60
+        / (2 * np.pi * RADIUS)
+    )
     return float(heights.mean()), float(heights.std())
 
 
 class Surface(ImageCase):
     @classmethod
     def scene(cls):
-        return ('[terrain]\nsurface = "ball.glb"\n[surface_grass]\nset = "short"\nground_colour = [0.04, 0.025, 0.015]\n'
-                "[sun]\nazimuth_deg = 150\nelevation_deg = 40\n[wind]\nspeed_mps = 0\ngust = 0\n" + "".join(pose(d) for d in DISTANCES))
+        return (
+            '[terrain]\nsurface = "ball.glb"\n[surface_grass]\nset = "short"\nground_colour = [0.04, 0.025, 0.015]\n'
+            "[sun]\nazimuth_deg = 150\nelevation_deg = 40\n[wind]\nspeed_mps = 0\ngust = 0\n"
+            + "".join(pose(d) for d in DISTANCES)
+        )
 
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
         write_ball(cls.dir / "ball.glb")
         (cls.dir / "short.toml").write_text(FUR)
-        result = sward_cli.run("texgen", "short.toml", "-o", "short", "-q", "--no-volume", "--no-preview", cwd=cls.dir, timeout=600)
+        result = sward_cli.run(
+            "texgen",
+            "short.toml",
+            "-o",
+            "short",
+            "-q",
+            "--no-volume",
+            "--no-preview",
+            cwd=cls.dir,
+            timeout=600,
+        )
         assert result.code == 0, result.err
         cls.measured = {}
 
     def measure(self, distance, build):
         if (distance, build) not in self.measured:
-            result = sward_cli.run("sward", "render", "scene.toml", "-o", "out.exr", "--size", f"{SIZE}x{SIZE}", "-q", "--stats", "stats.json", "--time", "1",
-                                   "--camera", f"at{distance}", "--aov", "color,coverage", *BUILDS[build], cwd=self.dir, timeout=600)
+            result = sward_cli.run(
+                "sward",
+                "render",
+                "scene.toml",
+                "-o",
+                "out.exr",
+                "--size",
+                f"{SIZE}x{SIZE}",
+                "-q",
+                "--stats",
+                "stats.json",
+                "--time",
+                "1",
+                "--camera",
+                f"at{distance}",
+                "--aov",
+                "color,coverage",
+                *BUILDS[build],
+                cwd=self.dir,
+                timeout=600,
+            )
             assert result.code == 0, result.err
             channels = sward_image.load_exr(self.dir / "out.exr")
             stats = json.loads((self.dir / "stats.json").read_text())
-            self.measured[distance, build] = (channels["coverage"], channels["color"] @ metrics.LUMINANCE, stats)
+            self.measured[distance, build] = (
+                channels["coverage"],
+                channels["color"] @ metrics.LUMINANCE,
+                stats,
+            )
         return self.measured[distance, build]
 
     def errors(self, distance, build):
-        """Against the truth: coverage of the picture, luminance over the skin, height of the hair beyond the outline, its unevenness."""
-        (wanted, light, _), (found, lit, _) = self.measure(distance, "truth"), self.measure(distance, build)
+        """Against the truth: coverage of the picture, luminance over the skin, height of the hair
+        beyond the outline, its unevenness."""
+        (wanted, light, _), (found, lit, _) = (
+            self.measure(distance, "truth"),
+            self.measure(distance, build),
+        )
         y, x = np.mgrid[:SIZE, :SIZE] + 0.5 - SIZE / 2
         fur = np.hypot(x, y) * 2 * half_of(distance) / SIZE < RADIUS
         (mean, spread), (own_mean, own_spread) = outline(wanted, distance), outline(found, distance)
-        errors = (found.mean() - wanted.mean(), lit[fur].mean() / light[fur].mean() - 1, own_mean / mean - 1, own_spread / spread)
-        print(f"{distance:3} m {build:7} coverage {100 * errors[0]:+5.2f} points, luminance {100 * errors[1]:+5.1f} %, hair beyond the outline "
-              f"{1000 * own_mean:.2f} mm ({1000 * mean:.2f}), uneven by {1000 * own_spread:.2f} ({1000 * spread:.2f})", flush=True)
+        errors = (
+            found.mean() - wanted.mean(),
+            lit[fur].mean() / light[fur].mean() - 1,
+            own_mean / mean - 1,
+            own_spread / spread,
+        )
+        print(
+            f"{distance:3} m {build:7} coverage {100 * errors[0]:+5.2f} points, luminance {100 * errors[1]:+5.1f} %, hair beyond the outline "
+            f"{1000 * own_mean:.2f} mm ({1000 * mean:.2f}), uneven by {1000 * own_spread:.2f} ({1000 * spread:.2f})",
+            flush=True,
+        )
         return errors
 
     def test_far(self):

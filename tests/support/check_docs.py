@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""What the pages point at is there: links and their headings, pictures, files named in code marks, and the functions that a page says a file
+"""What the pages point at is there: links and their headings, pictures, files named in code marks,
+and the functions that a page says a file
 holds.
 
     check_docs.py ROOT          exits with 1 and a line for each thing that is not there
     check_docs.py --self-test   shows that each kind is found
 """
+
 import re
 import sys
 import tempfile
@@ -13,7 +15,9 @@ from pathlib import Path
 
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"`([^`\n]+)`")
-PATH = re.compile(r"(?:src|shaders|texgen|tests|docs|scripts|terrains|vehicles|cmake)/[\w./*{},-]+\Z")
+PATH = re.compile(
+    r"(?:src|shaders|texgen|tests|docs|scripts|terrains|vehicles|cmake)/[\w./*{},-]+\Z"
+)
 FILE = r"[\w./*{},]+\.(?:cpp|h|glsl|vert|frag|comp|tesc|tese|py)"
 NAMED = re.compile(rf"`({FILE})`: ((?:`[\w:]+`[,; ()]*)+)")  # `file`: `name`, `another`
 MADE = re.compile(r"\A(?:build|out)/")  # by the build, not in the tree
@@ -35,11 +39,16 @@ def spread(path):
     match = re.search(r"\{([^{}]*)\}", path)
     if not match:
         return [path]
-    return [p for part in match.group(1).split(",") for p in spread(path[:match.start()] + part + path[match.end():])]
+    return [
+        p
+        for part in match.group(1).split(",")
+        for p in spread(path[: match.start()] + part + path[match.end() :])
+    ]
 
 
 def files_of(root, path, beside):
-    """A file as a page names it: from the root, or by its name alone beside the one named before it."""
+    """A file as a page names it: from the root, or by its name alone beside the one named before
+    it."""
     found = [file for one in spread(path) for file in root.glob(one)]
     return found or [file for one in spread(path) for file in beside.glob(one)]
 
@@ -48,7 +57,11 @@ def missing_names(root, line):
     """Names that the file before them does not hold."""
     for match in NAMED.finditer(line):
         path, names = match.groups()
-        earlier = [files[0].parent for other in re.findall(rf"`({FILE})`", line[:match.start()]) if "/" in other and (files := files_of(root, other, root))]
+        earlier = [
+            files[0].parent
+            for other in re.findall(rf"`({FILE})`", line[: match.start()])
+            if "/" in other and (files := files_of(root, other, root))
+        ]
         files = files_of(root, path, earlier[-1] if earlier else root)
         if not files:
             yield path
@@ -83,7 +96,12 @@ def missing(root, page):
 
 def check(root):
     pages = [root / "README.md", root / "CONTRIBUTING.md", *sorted((root / "docs").rglob("*.md"))]
-    return [f"{page.relative_to(root)}:{number}: {what} is not there" for page in pages if page.exists() for number, what in missing(root, page)]
+    return [
+        f"{page.relative_to(root)}:{number}: {what} is not there"
+        for page in pages
+        if page.exists()
+        for number, what in missing(root, page)
+    ]
 
 
 def self_test():
@@ -95,10 +113,21 @@ def self_test():
         (root / "src/a.cpp").write_text("")
         (root / "src/b.cpp").write_text("int g() { return 0; }")
         (root / "docs/b.md").write_text("# What it is\n## A `word`, and more\n")
-        (root / "README.md").write_text("[b](docs/b.md#what-it-is) [c](docs/b.md#a-word-and-more) `src/a.h` `src/a.{h,cpp}` `src/*.h` `src/a`\n`src/a.h`: `f`, `b.cpp`: `g`\n")
+        (root / "README.md").write_text(
+            "[b](docs/b.md#what-it-is) [c](docs/b.md#a-word-and-more) `src/a.h` `src/a.{h,cpp}` `src/*.h` `src/a`\n`src/a.h`: `f`, `b.cpp`: `g`\n"
+        )
         assert check(root) == [], check(root)
-        (root / "README.md").write_text("[b](docs/c.md)\n[b](docs/b.md#nothing)\n`src/b.h`\n`src/{a,b}.h`\n![p](p.png)\n`src/a.h`: `f`, `g`\n")
-        assert [word.split(":")[1] for word in check(root)] == ["1", "2", "3", "4", "5", "6"], check(root)
+        (root / "README.md").write_text(
+            "[b](docs/c.md)\n[b](docs/b.md#nothing)\n`src/b.h`\n`src/{a,b}.h`\n![p](p.png)\n`src/a.h`: `f`, `g`\n"
+        )
+        assert [word.split(":")[1] for word in check(root)] == [
+            "1",
+            "2",
+            "3",
+            "4",
+            "5",
+            "6",
+        ], check(root)
     print("six kinds found, and none where all is there")
 
 

@@ -4,9 +4,11 @@
     check_includes.py ROOT       checks src/, texgen/ and shaders/ under ROOT
     check_includes.py --self-test    shows that a forbidden include and a forbidden link are caught
 
-The table below is docs/architecture.md in a form a machine reads: each module lists those it stands on directly, and may
+The table below is docs/architecture.md in a form a machine reads: each module lists those it stands
+on directly, and may
 include them and all below them. Modules that do not reach one another do not know each other.
 """
+
 import re
 import sys
 import tempfile
@@ -42,14 +44,17 @@ ARROWS = {
     "texgen/support": {"grass", "assets"},
     "base": set(),
 }
-# Code that GLSL compiles: `shared` is everyone's, `lib` is the shaders' own; both stand on nothing of src/.
+# Code that GLSL compiles: `shared` is everyone's, `lib` is the shaders' own; both stand on nothing
+# of src/.
 SHARED = "shared"
 LIB = "lib"
-# The public headers: everyone may include them, and they stand on the standard library and on GLM's vectors and matrices alone.
+# The public headers: everyone may include them, and they stand on the standard library and on GLM's
+# vectors and matrices alone.
 FACE = "sward"
 FACE_INCLUDE = re.compile(r"^(sward/[a-z_]+\.h|glm/(vec|mat)[234](x[234])?\.hpp|[a-z_]+)$")
 
-# The one house of each heavy library: an include of it anywhere else drags it into what a simulator links.
+# The one house of each heavy library: an include of it anywhere else drags it into what a simulator
+# links.
 HOUSES = {
     "openvdb/": {"assets", "texgen/vdb"},
     "OpenImageIO/": {"assets"},
@@ -114,7 +119,9 @@ def may_include(module, target, is_shader):
 def check_house_of(path, line, name, module):
     for prefix, houses in HOUSES.items():
         if name.startswith(prefix) and module not in houses:
-            return [f"{line}: {module} includes <{name}>, which only {', '.join(sorted(houses))} may"]
+            return [
+                f"{line}: {module} includes <{name}>, which only {', '.join(sorted(houses))} may"
+            ]
     return []
 
 
@@ -188,14 +195,20 @@ def check_links(root, uses):
             messages.append(f"{module}/CMakeLists.txt: {module} may not link {target}")
     for module, target in sorted(uses):
         if not target.startswith("texgen/") and target not in reach(links, module):
-            messages.append(f"{module}/CMakeLists.txt: {module} includes {target} but does not link it")
+            messages.append(
+                f"{module}/CMakeLists.txt: {module} includes {target} but does not link it"
+            )
     return messages
 
 
 def check_tree(root):
     """(messages, files read). `root` is absolute and resolved."""
-    files = [p for folder in ("src", "texgen", "shaders") for p in sorted((root / folder).rglob("*"))
-             if p.is_file() and p.suffix in SUFFIXES]
+    files = [
+        p
+        for folder in ("src", "texgen", "shaders")
+        for p in sorted((root / folder).rglob("*"))
+        if p.is_file() and p.suffix in SUFFIXES
+    ]
     uses, messages = set(), []
     for path in files:
         messages += check_file(path, root, uses)
@@ -232,11 +245,23 @@ BAD_TREES = [
     ({"src/gl/buffer.h": '#include "lib/wind.glsl"\n'}, "gl may not include lib/wind.glsl"),
     ({"src/gl/buffer.h": "#include <openvdb/openvdb.h>\n"}, "gl includes <openvdb/openvdb.h>"),
     ({"src/gl/buffer.h": '#include "gone.h"\n'}, "no file of the tree"),
-    ({"src/gl/CMakeLists.txt": "sward_module(gl LINKS sward_base sward_scene)"}, "gl may not link scene"),
+    (
+        {"src/gl/CMakeLists.txt": "sward_module(gl LINKS sward_base sward_scene)"},
+        "gl may not link scene",
+    ),
     ({"src/gl/CMakeLists.txt": "sward_module(gl)"}, "gl includes base but does not link it"),
-    ({"src/sward/view.h": '#include "gl/buffer.h"\n'}, "a public header may not include gl/buffer.h"),
-    ({"src/sward/view.h": "#include <glm/gtc/packing.hpp>\n"}, "a public header may not include glm/gtc"),
-    ({"texgen/support/parallel.h": '#include "texgen/preset/preset.h"\n'}, "texgen/support may not include texgen/preset"),
+    (
+        {"src/sward/view.h": '#include "gl/buffer.h"\n'},
+        "a public header may not include gl/buffer.h",
+    ),
+    (
+        {"src/sward/view.h": "#include <glm/gtc/packing.hpp>\n"},
+        "a public header may not include glm/gtc",
+    ),
+    (
+        {"texgen/support/parallel.h": '#include "texgen/preset/preset.h"\n'},
+        "texgen/support may not include texgen/preset",
+    ),
     ({"texgen/lost.h": ""}, "stands in no module"),
     ({"src/new/new.h": ""}, "module new is missing"),
 ]

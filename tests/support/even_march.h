@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the march reads of a canopy that is the same everywhere, as tall as `canopy` (m) and half as opaque from above as `area` (blade area
-// over ground area) says: for sets that tests make themselves.
+// What the march reads of a canopy that is the same everywhere, as tall as `canopy` (m) and half as
+// opaque from above as `area` (blade area over ground area) says: for sets that tests make
+// themselves.
 #pragma once
 
 #include <cstring>
@@ -12,10 +13,12 @@
 
 namespace sward::tests {
 
-inline grass::TextureArray even_images(glm::ivec3 shape, grass::TexelFormat format, const std::vector<std::uint8_t>& texel) {
+inline grass::TextureArray even_images(glm::ivec3 shape, grass::TexelFormat format,
+                                       const std::vector<std::uint8_t>& texel) {
     grass::TextureArray array{shape.x, shape.y, shape.z, {}, format};
     for (int mip = 0; mip == 0 || (std::max(shape.x, shape.y) >> mip) > 0; ++mip) {
-        const std::size_t texels = static_cast<std::size_t>(std::max(1, shape.x >> mip)) * static_cast<std::size_t>(std::max(1, shape.y >> mip)) *
+        const std::size_t texels = static_cast<std::size_t>(std::max(1, shape.x >> mip)) *
+                                   static_cast<std::size_t>(std::max(1, shape.y >> mip)) *
                                    static_cast<std::size_t>(shape.z);
         std::vector<std::uint8_t> bytes(texels * texel.size());
         for (std::size_t i = 0; i < bytes.size(); i += texel.size()) {
@@ -29,7 +32,8 @@ inline grass::TextureArray even_images(glm::ivec3 shape, grass::TexelFormat form
 inline grass::FarMedium even_march(float side, float canopy, int variants, float area = 1) {
     grass::FarMedium march;
     for (int i = 0; i <= shared::kMarchLayers; ++i) {
-        const float height = static_cast<float>(i) / shared::kMarchLayers, above = area * (1 - height);
+        const float height = static_cast<float>(i) / shared::kMarchLayers,
+                    above = area * (1 - height);
         march.medium.edges[i] = {above, 0.5f * above, above, canopy * height};
     }
     for (int i = 0; i < shared::kMarchLayers; ++i) {
@@ -49,14 +53,16 @@ inline grass::FarMedium even_march(float side, float canopy, int variants, float
         std::memcpy(&density[2 * c], &half, 2);
     }
     const auto arrays = [&](glm::ivec3 shape) {
-        return grass::MarchArrays{even_images(shape, grass::TexelFormat::kRgba16f, density),
-                                  even_images(shape, grass::TexelFormat::kRgba8, {128, 204, 128, 128})};
+        return grass::MarchArrays{
+            even_images(shape, grass::TexelFormat::kRgba16f, density),
+            even_images(shape, grass::TexelFormat::kRgba8, {128, 204, 128, 128})};
     };
     const int columns = shared::kMarchTexels >> shared::kColumnBase;
     march.columns = arrays({columns, columns, variants * shared::kMarchLayers});
     for (int k = 0; k < shared::kMarchSets; ++k) {
         march.slabs[static_cast<std::size_t>(k)] =
-            arrays({shared::kMarchTexels >> k, grass::kMarchRows, variants * 2 * (shared::kFinestSlabs >> k)});
+            arrays({shared::kMarchTexels >> k, grass::kMarchRows,
+                    variants * 2 * (shared::kFinestSlabs >> k)});
     }
     march.correction.assign(grass::kMarchCorrections, 1.0f);
     return march;

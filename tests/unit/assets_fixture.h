@@ -82,9 +82,10 @@ struct Tiff {
     std::vector<double> matrix; ///< ModelTransformationTag, 16 numbers
     std::vector<std::uint16_t> geokeys;
     std::string nodata;
-    std::string metadata; ///< GDAL_METADATA
-    bool alpha = false;   ///< the last sample of a pixel
-    std::string inner_mask; ///< a byte a pixel, 0 where there is no value: written as a second picture of one bit
+    std::string metadata;   ///< GDAL_METADATA
+    bool alpha = false;     ///< the last sample of a pixel
+    std::string inner_mask; ///< a byte a pixel, 0 where there is no value: written as a second
+                            ///< picture of one bit
 
     [[nodiscard]] std::string bytes() const {
         struct Entry {
@@ -149,7 +150,8 @@ struct Tiff {
             return file + directory + little(std::uint32_t{0}) + values;
         const auto bits_at = static_cast<std::uint32_t>(after + values.size());
         const auto next = static_cast<std::uint32_t>(bits_at + mask_bits.size());
-        return file + directory + little(next) + values + mask_bits + mask_directory(bits_at, mask_bits.size());
+        return file + directory + little(next) + values + mask_bits +
+               mask_directory(bits_at, mask_bits.size());
     }
 
 private:
@@ -166,19 +168,23 @@ private:
     }
     [[nodiscard]] std::string mask_directory(std::uint32_t at, std::size_t size) const {
         const std::vector<std::pair<std::uint16_t, std::uint32_t>> numbers = {
-            {254, 4}, {256, width}, {257, height}, {258, 1}, {259, 1}, {262, 4}, {273, at}, {277, 1}, {278, height},
-            {279, static_cast<std::uint32_t>(size)}};
+            {254, 4},      {256, width},
+            {257, height}, {258, 1},
+            {259, 1},      {262, 4},
+            {273, at},     {277, 1},
+            {278, height}, {279, static_cast<std::uint32_t>(size)}};
         std::string directory = little(static_cast<std::uint16_t>(numbers.size()));
         for (const auto& [tag, value] : numbers)
-            directory += little(tag) + little(std::uint16_t{4}) + little(std::uint32_t{1}) + little(value);
+            directory +=
+                little(tag) + little(std::uint16_t{4}) + little(std::uint32_t{1}) + little(value);
         return directory + little(std::uint32_t{0});
     }
 };
 
 inline const std::vector<std::uint16_t> kWgs84 = {1,    1, 0, 3, 1024, 0, 1, 2,
-                                           1025, 0, 1, 1, 2048, 0, 1, 4326};
+                                                  1025, 0, 1, 1, 2048, 0, 1, 4326};
 inline const std::vector<std::uint16_t> kUtm32 = {1,    1, 0, 3, 1024, 0, 1, 1,
-                                           1025, 0, 1, 1, 3072, 0, 1, 32632};
+                                                  1025, 0, 1, 1, 3072, 0, 1, 32632};
 
 /// Affine map of a GeoTIFF: x = a i + b j + c, y = d i + e j + f.
 inline std::vector<double> affine(double a, double b, double c, double d, double e, double f) {
@@ -211,7 +217,7 @@ inline std::uint32_t crc(const std::string& bytes) {
 
 /// A PNG with stored (uncompressed) data; `rows` carry their filter bytes.
 inline std::string png(std::uint32_t width, std::uint32_t height, int bits, int colour,
-                const std::string& rows, const std::string& palette = "") {
+                       const std::string& rows, const std::string& palette = "") {
     const auto big = [](std::uint32_t v) {
         return std::string{char(v >> 24), char(v >> 16), char(v >> 8), char(v)};
     };

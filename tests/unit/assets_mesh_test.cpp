@@ -27,7 +27,8 @@ std::string raw(const std::vector<float>& values) {
 /// A glTF of one triangle in buffer "mesh.bin", each part of it replaceable.
 struct Parts {
     std::string buffers = R"([{"byteLength":42,"uri":"mesh.bin"}])";
-    std::string views = R"([{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}])";
+    std::string views =
+        R"([{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}])";
     std::string accessors = R"([{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},
                                {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}])";
     std::string meshes = R"([{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}])";
@@ -35,8 +36,9 @@ struct Parts {
     std::string scenes = R"([{"nodes":[0]}])";
     std::string more;
     [[nodiscard]] std::string text() const {
-        return R"({"asset":{"version":"2.0"},"buffers":)" + buffers + R"(,"bufferViews":)" + views + R"(,"accessors":)" +
-               accessors + R"(,"meshes":)" + meshes + R"(,"nodes":)" + nodes + R"(,"scenes":)" + scenes + more + "}";
+        return R"({"asset":{"version":"2.0"},"buffers":)" + buffers + R"(,"bufferViews":)" + views +
+               R"(,"accessors":)" + accessors + R"(,"meshes":)" + meshes + R"(,"nodes":)" + nodes +
+               R"(,"scenes":)" + scenes + more + "}";
     }
 };
 
@@ -48,7 +50,9 @@ protected:
         put("mesh.bin", raw({0, 0, 0, 4, 0, 0, 0, 0, -2}) + std::string("\0\0\1\0\2\0", 6));
     }
     void TearDown() override { fs::remove_all(dir_); }
-    void put(const std::string& name, const std::string& bytes) const { std::ofstream(dir_ / name, std::ios::binary) << bytes; }
+    void put(const std::string& name, const std::string& bytes) const {
+        std::ofstream(dir_ / name, std::ios::binary) << bytes;
+    }
     [[nodiscard]] scene::Mesh load(const Parts& parts) const {
         put("m.gltf", parts.text());
         return load_mesh(dir_ / "m.gltf");
@@ -75,8 +79,8 @@ protected:
             const auto value = static_cast<std::uint32_t>(n);
             return std::string(reinterpret_cast<const char*>(&value), 4);
         };
-        return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" + json +
-               word(binary.size()) + std::string("BIN\0", 4) + binary;
+        return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) +
+               "JSON" + json + word(binary.size()) + std::string("BIN\0", 4) + binary;
     }
     fs::path dir_;
 };
@@ -120,7 +124,11 @@ TEST_F(MeshFile, TransformsNestAndMirrorsKeepTheirOutside) {
     EXPECT_NEAR(glm::distance(mesh.positions[1], glm::vec3(10, 0, -8)), 0, 1e-5);
     for (std::size_t t = 0; t < 2; ++t) {
         const auto& c = mesh.triangles[t];
-        EXPECT_GT(glm::cross(mesh.positions[c[1]] - mesh.positions[c[0]], mesh.positions[c[2]] - mesh.positions[c[0]]).y, 0) << t;
+        EXPECT_GT(glm::cross(mesh.positions[c[1]] - mesh.positions[c[0]],
+                             mesh.positions[c[2]] - mesh.positions[c[0]])
+                      .y,
+                  0)
+            << t;
         EXPECT_NEAR(mesh.normals[c[0]].y, 1, 1e-6);
     }
 }
@@ -158,7 +166,8 @@ TEST_F(MeshFile, TruncatedAndFlippedFilesNeverCrash) {
     Parts parts;
     parts.buffers = R"([{"byteLength":42}])";
     std::ifstream in(dir_ / "mesh.bin", std::ios::binary);
-    const std::string whole = glb(parts.text(), std::string((std::istreambuf_iterator<char>(in)), {}));
+    const std::string whole =
+        glb(parts.text(), std::string((std::istreambuf_iterator<char>(in)), {}));
     for (std::size_t size = 0; size < whole.size(); size += 7) {
         put("cut.glb", whole.substr(0, size));
         EXPECT_NE(error("cut.glb"), "no error") << size;
@@ -183,7 +192,8 @@ TEST_F(MeshFile, TruncatedAndFlippedFilesNeverCrash) {
 
 TEST_F(MeshFile, DeepJsonIsCountedBeforeItIsParsed) {
     put("deep.gltf", std::string(30000, '[') + std::string(30000, ']'));
-    EXPECT_EQ(error("deep.gltf", ExitCode::kOverLimit), "deep.gltf: JSON: found deeper nesting, expected at most 64 levels");
+    EXPECT_EQ(error("deep.gltf", ExitCode::kOverLimit),
+              "deep.gltf: JSON: found deeper nesting, expected at most 64 levels");
     std::string object;
     for (int i = 0; i < 30000; ++i)
         object += "{\"a\":";
@@ -216,13 +226,15 @@ TEST_F(MeshFile, IndicesAndRangesStayInside) {
 }
 
 TEST_F(MeshFile, NumbersAreFiniteAndTrianglesHaveAreas) {
-    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                inf = std::numeric_limits<float>::infinity();
     for (const float bad : {nan, inf, -inf, 1e30f}) {
         put("mesh.bin", raw({0, 0, 0, 4, bad, 0, 0, 0, -2}) + std::string("\0\0\1\0\2\0", 6));
         EXPECT_NE(error(Parts{}).find("POSITION"), std::string::npos) << bad;
     }
     put("mesh.bin", raw({0, 0, 0, 1, 0, 0, 2, 0, 0}) + std::string("\0\0\1\0\2\0", 6));
-    EXPECT_EQ(error(Parts{}), "m.gltf: mesh: found no triangle with an area, expected at least one, in a node of the scene");
+    EXPECT_EQ(error(Parts{}), "m.gltf: mesh: found no triangle with an area, expected at least "
+                              "one, in a node of the scene");
     Parts parts;
     parts.nodes = R"([{"mesh":0,"rotation":[0,0,0,0]}])";
     EXPECT_NE(error(parts).find("rotation of node 0 by nothing"), std::string::npos);
@@ -235,9 +247,10 @@ TEST_F(MeshFile, UrisStayInTheDirectory) {
     fs::create_directory(dir_ / "in");
     fs::create_symlink(dir_ / "mesh.bin", dir_ / "in" / "link.bin");
     fs::create_directory_symlink(dir_, dir_ / "in" / "up");
-    for (const char* const uri : {"../mesh.bin", "sub/../../mesh.bin", "%2e%2e/mesh.bin", "..%2fmesh.bin", "/etc/passwd",
-                                  "file:///etc/passwd", "http://example.com/a.bin", "link.bin", "up/mesh.bin", "a%zz.bin",
-                                  "..\\\\mesh.bin", ""}) {
+    for (const char* const uri :
+         {"../mesh.bin", "sub/../../mesh.bin", "%2e%2e/mesh.bin", "..%2fmesh.bin", "/etc/passwd",
+          "file:///etc/passwd", "http://example.com/a.bin", "link.bin", "up/mesh.bin", "a%zz.bin",
+          "..\\\\mesh.bin", ""}) {
         Parts parts;
         parts.buffers = std::string(R"([{"byteLength":42,"uri":")") + uri + R"("}])";
         put("in/m.gltf", parts.text());
@@ -251,7 +264,8 @@ TEST_F(MeshFile, UrisStayInTheDirectory) {
 TEST_F(MeshFile, NodesAreATree) {
     Parts parts;
     parts.nodes = R"([{"children":[1]},{"children":[0],"mesh":0}])";
-    EXPECT_EQ(error(parts), "m.gltf: node: found 0 a second time, expected a tree: one parent each, no loop");
+    EXPECT_EQ(error(parts),
+              "m.gltf: node: found 0 a second time, expected a tree: one parent each, no loop");
     parts.nodes = R"([{"children":[1,1]},{"mesh":0}])";
     EXPECT_NE(error(parts).find("a second time"), std::string::npos);
     // A chain as long as nesting could be: no recursion.
@@ -264,8 +278,10 @@ TEST_F(MeshFile, NodesAreATree) {
 
 TEST_F(MeshFile, ExtensionsThatAreRequiredAreRefusedByName) {
     Parts parts;
-    parts.more = R"(,"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"])";
-    EXPECT_NE(error(parts).find("extensionsRequired: found [\"KHR_draco_mesh_compression\"]"), std::string::npos);
+    parts.more =
+        R"(,"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"])";
+    EXPECT_NE(error(parts).find("extensionsRequired: found [\"KHR_draco_mesh_compression\"]"),
+              std::string::npos);
     parts.more = R"(,"extensionsUsed":["KHR_materials_unlit"])";
     EXPECT_EQ(load(parts).triangles.size(), 1u);
 }

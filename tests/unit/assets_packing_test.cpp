@@ -17,7 +17,12 @@ scene::Mesh box(glm::vec3 half) {
     for (int i = 0; i < 8; ++i)
         mesh.positions.push_back(half * glm::vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     mesh.normals.assign(8, glm::vec3(0, 1, 0));
-    for (const auto& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}) {
+    for (const auto& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
+                          {1, 3, 7, 5},
+                          {0, 1, 5, 4},
+                          {2, 6, 7, 3},
+                          {0, 2, 3, 1},
+                          {4, 5, 7, 6}}) {
         mesh.triangles.push_back({q[0], q[1], q[2]});
         mesh.triangles.push_back({q[0], q[2], q[3]});
     }
@@ -35,11 +40,13 @@ std::string error_of(const scene::Mesh& mesh, base::ExitCode code = base::ExitCo
 }
 
 /// Share of `samples` places of a box, those inside the mesh by `inside`, that a ball holds.
-double covered(const scene::SphereSet& set, glm::vec3 low, glm::vec3 high, const std::function<bool(glm::vec3)>& inside) {
+double covered(const scene::SphereSet& set, glm::vec3 low, glm::vec3 high,
+               const std::function<bool(glm::vec3)>& inside) {
     constexpr int n = 40;
     int within = 0, held = 0;
     for (int i = 0; i < n * n * n; ++i) {
-        const glm::vec3 p = low + (high - low) * (glm::vec3(i % n, i / n % n, i / (n * n)) + 0.5f) / static_cast<float>(n);
+        const glm::vec3 p = low + (high - low) * (glm::vec3(i % n, i / n % n, i / (n * n)) + 0.5f) /
+                                      static_cast<float>(n);
         if (!inside(p))
             continue;
         ++within;
@@ -79,12 +86,14 @@ TEST(SpherePacking, PlacesAndSizesFollowTheMesh) {
         p += glm::vec3(500, -20, 3000);
     for (const glm::vec4& ball : pack_spheres(far, {}, "m.glb").spheres) {
         const glm::vec3 off = glm::abs(glm::vec3(ball) - glm::vec3(500, -20, 3000));
-        EXPECT_LE(std::max({off.x, off.y, off.z}) + ball.w, 0.1f + 0.2f / 96 + 3e-4f); // a float is that coarse there
+        EXPECT_LE(std::max({off.x, off.y, off.z}) + ball.w,
+                  0.1f + 0.2f / 96 + 3e-4f); // a float is that coarse there
     }
 }
 
 TEST(SpherePacking, ShippedMeshesAreFilled) {
-    const scene::Mesh animal = load_mesh(std::filesystem::path(SWARD_SOURCE_DIR) / "terrains/fur/animal.glb");
+    const scene::Mesh animal =
+        load_mesh(std::filesystem::path(SWARD_SOURCE_DIR) / "terrains/fur/animal.glb");
     const scene::SphereSet set = pack_spheres(animal, {}, "animal.glb");
     float deepest = 0;
     for (const glm::vec4& ball : set.spheres) { // no vertex of the mesh is well inside a ball
@@ -93,7 +102,9 @@ TEST(SpherePacking, ShippedMeshesAreFilled) {
     }
     EXPECT_LT(deepest, 2.6f / 96);
     EXPECT_GT(set.spheres.size(), 100u);
-    EXPECT_GT(covered(set, {-0.12f, 0.85f, -0.5f}, {0.12f, 1.1f, 0.5f}, [](glm::vec3) { return true; }), 0.97); // of its trunk
+    EXPECT_GT(
+        covered(set, {-0.12f, 0.85f, -0.5f}, {0.12f, 1.1f, 0.5f}, [](glm::vec3) { return true; }),
+        0.97); // of its trunk
     float low = 9;
     for (const glm::vec4& ball : set.spheres)
         low = std::min(low, ball.y - ball.w);
@@ -103,18 +114,24 @@ TEST(SpherePacking, ShippedMeshesAreFilled) {
 TEST(SpherePacking, MeshesWithoutAnInsideAreRefused) {
     scene::Mesh open = box({1, 1, 1});
     open.triangles.pop_back();
-    EXPECT_NE(error_of(open).find("m.glb: mesh to be packed with spheres: found a rim"), std::string::npos) << error_of(open);
+    EXPECT_NE(error_of(open).find("m.glb: mesh to be packed with spheres: found a rim"),
+              std::string::npos)
+        << error_of(open);
     scene::Mesh turned = box({1, 1, 1});
     std::swap(turned.triangles[3][0], turned.triangles[3][1]);
     EXPECT_NE(error_of(turned).find("found a rim"), std::string::npos);
     scene::Mesh flat = box({1, 0, 1});
     EXPECT_NE(error_of(flat).find("found no volume"), std::string::npos) << error_of(flat);
-    EXPECT_NE(error_of(box({1, 0.002f, 1})).find("found no inside"), std::string::npos) << error_of(box({1, 0.002f, 1}));
+    EXPECT_NE(error_of(box({1, 0.002f, 1})).find("found no inside"), std::string::npos)
+        << error_of(box({1, 0.002f, 1}));
     EXPECT_NE(error_of({}).find("found no triangles"), std::string::npos);
     scene::Mesh many = box({1, 1, 1});
     many.triangles.resize(kMostPackedTriangles + 1, many.triangles[0]);
-    EXPECT_NE(error_of(many, base::ExitCode::kOverLimit).find("2000001 triangles, expected at most 2000000"), std::string::npos);
-    scene::Mesh apart = box({1, 1, 1}); // every triangle with corners of its own: closed all the same
+    EXPECT_NE(error_of(many, base::ExitCode::kOverLimit)
+                  .find("2000001 triangles, expected at most 2000000"),
+              std::string::npos);
+    scene::Mesh apart =
+        box({1, 1, 1}); // every triangle with corners of its own: closed all the same
     scene::Mesh soup;
     for (const auto& t : apart.triangles) {
         for (const std::uint32_t corner : t)

@@ -562,11 +562,18 @@ TEST(Picture, FailuresLeaveNothing) {
                  "/dev/full: cannot write");
     expect_holds(error_of([&] { write_png(dir.path(), picture); }, ExitCode::kIo),
                  "found a directory");
-    expect_holds(error_of([&] { write_png(dir / "a.png", {2, 2, {1, 2}}); }, ExitCode::kFailure),
+    expect_holds(error_of(
+                     [&] {
+                         write_png(dir / "a.png", {2, 2, {1, 2}});
+                     },
+                     ExitCode::kFailure),
                  "found 2 bytes for 4 pixels");
-    expect_holds(
-        error_of([&] { write_exr(dir / "a.exr", {2, 2, {"R"}, {1}, {}}); }, ExitCode::kFailure),
-        "found 1 values for 4 pixels of 1 channels");
+    expect_holds(error_of(
+                     [&] {
+                         write_exr(dir / "a.exr", {2, 2, {"R"}, {1}, {}});
+                     },
+                     ExitCode::kFailure),
+                 "found 1 values for 4 pixels of 1 channels");
     EXPECT_TRUE(fs::is_empty(dir.path()));
 }
 

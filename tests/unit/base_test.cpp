@@ -358,9 +358,7 @@ TEST(PendingOutput, SwapsADirectory) {
     EXPECT_EQ(get(dir / "set/set.json"), "two");
     EXPECT_FALSE(fs::exists(dir / "set/old"));
     EXPECT_EQ(dir.names(), std::set<std::string>{"set"});
-    {
-        const PendingOutput dropped(dir / "set", PendingOutput::Kind::kDirectory);
-    }
+    { const PendingOutput dropped(dir / "set", PendingOutput::Kind::kDirectory); }
     EXPECT_EQ(get(dir / "set/set.json"), "two");
     EXPECT_EQ(dir.names(), std::set<std::string>{"set"});
 }
@@ -512,7 +510,8 @@ TEST(Progress, BarTellsTheTimeLeftAndFitsItsTerminal) {
               "files [#######.......................]  25 % 30 s left");
     EXPECT_EQ(progress_bar("files", 0.5, 200, 80),
               "files [###############...............]  50 % 3 min 20 s left");
-    EXPECT_EQ(progress_bar("files", 0.999, 2, 80).substr(39), " 99 % 0 s left"); // not done: not 100
+    EXPECT_EQ(progress_bar("files", 0.999, 2, 80).substr(39),
+              " 99 % 0 s left"); // not done: not 100
     EXPECT_EQ(progress_bar("files", 1, 7200, 80),
               "files [##############################] 100 % in 2 h 0 min");
     for (std::size_t columns = 0; columns < 90; ++columns)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The vehicle on grounds that are functions: what a driver would notice, and what must never happen.
+// The vehicle on grounds that are functions: what a driver would notice, and what must never
+// happen.
 #include <cmath>
 #include <string>
 
@@ -72,18 +73,23 @@ TEST(Vehicle, WheelsRollAndAreSteered) {
     double turned = 0;
     const VehicleState from = vehicle.state();
     VehicleState before = from, now = from;
-    for (int i = 0; i < 120; ++i, before = now) { // two seconds, by less than a quarter of a turn a step
+    for (int i = 0; i < 120;
+         ++i, before = now) { // two seconds, by less than a quarter of a turn a step
         vehicle.advance(Vehicle::kStep_s, {0.4, 0, 0});
         now = vehicle.state();
-        const glm::dvec3 spoke = now.wheels[2].turn * glm::dvec3(0, 1, 0), last = before.wheels[2].turn * glm::dvec3(0, 1, 0);
-        turned += std::atan2(glm::dot(glm::cross(last, spoke), glm::dvec3(-1, 0, 0)), glm::dot(last, spoke)); // the top goes ahead
+        const glm::dvec3 spoke = now.wheels[2].turn * glm::dvec3(0, 1, 0),
+                         last = before.wheels[2].turn * glm::dvec3(0, 1, 0);
+        turned += std::atan2(glm::dot(glm::cross(last, spoke), glm::dvec3(-1, 0, 0)),
+                             glm::dot(last, spoke)); // the top goes ahead
         for (const WheelState& wheel : now.wheels)
             EXPECT_NEAR(wheel.hub.y - wheel.contact.y, 0.32, 0.02);
     }
     EXPECT_NEAR(turned * 0.32, from.position.z - now.position.z, 0.3);
     drive(vehicle, 1, {0, 1, 0});
-    const glm::dvec3 axle = vehicle.state().wheels[1].turn * glm::dvec3(1, 0, 0), rear = vehicle.state().wheels[3].turn * glm::dvec3(1, 0, 0);
-    EXPECT_GT(glm::dot(glm::cross(axle, rear), glm::dvec3(0, 1, 0)), 0.1) << "to the right: clockwise from above";
+    const glm::dvec3 axle = vehicle.state().wheels[1].turn * glm::dvec3(1, 0, 0),
+                     rear = vehicle.state().wheels[3].turn * glm::dvec3(1, 0, 0);
+    EXPECT_GT(glm::dot(glm::cross(axle, rear), glm::dvec3(0, 1, 0)), 0.1)
+        << "to the right: clockwise from above";
 }
 
 TEST(VehicleMesh, BodiesHaveTheirPresetsMeasuresAndClearTheirWheels) {
@@ -100,13 +106,17 @@ TEST(VehicleMesh, BodiesHaveTheirPresetsMeasuresAndClearTheirWheels) {
         EXPECT_NEAR(low.y, spec.clearance_m, 1e-5) << name;
         for (const auto& at : body.positions)
             for (const AxleSpec& axle : spec.axles) {
-                const bool beside = std::abs(static_cast<double>(at.x)) < axle.track_m / 2 - axle.width_m / 2;
-                const glm::dvec2 away(static_cast<double>(at.y) - axle.radius_m, static_cast<double>(at.z) + axle.ahead_m);
-                EXPECT_TRUE(beside || glm::length(away) > axle.radius_m) << name << " " << at.x << " " << at.y << " " << at.z;
+                const bool beside =
+                    std::abs(static_cast<double>(at.x)) < axle.track_m / 2 - axle.width_m / 2;
+                const glm::dvec2 away(static_cast<double>(at.y) - axle.radius_m,
+                                      static_cast<double>(at.z) + axle.ahead_m);
+                EXPECT_TRUE(beside || glm::length(away) > axle.radius_m)
+                    << name << " " << at.x << " " << at.y << " " << at.z;
             }
         const sward::scene::Mesh wheel = wheel_mesh(spec.axles[1]);
         for (std::size_t i = 0; i < wheel.positions.size(); ++i) {
-            EXPECT_LT(glm::length(glm::dvec2(wheel.positions[i].y, wheel.positions[i].z)), spec.axles[1].radius_m + 1e-5);
+            EXPECT_LT(glm::length(glm::dvec2(wheel.positions[i].y, wheel.positions[i].z)),
+                      spec.axles[1].radius_m + 1e-5);
             EXPECT_GE(glm::dot(wheel.positions[i], wheel.normals[i]), -1e-5f) << "out of the wheel";
         }
         EXPECT_EQ(body.positions.size(), body.normals.size());
@@ -147,8 +157,11 @@ TEST(Vehicle, GripIsTheSurfaces) {
         EXPECT_NEAR(vehicle.state().speed_mps(), 0, 0.1);
         return glm::distance(begin, vehicle.state().position);
     };
-    const double road = braking(Surface::kRoad), grass = braking(Surface::kGrass), wet = braking(Surface::kWetGrass);
-    const auto no_less = [](double grip) { return 15 * 15 / (2 * 9.81 * (grip + 0.1)); }; // rolling and drag help a little
+    const double road = braking(Surface::kRoad), grass = braking(Surface::kGrass),
+                 wet = braking(Surface::kWetGrass);
+    const auto no_less = [](double grip) {
+        return 15 * 15 / (2 * 9.81 * (grip + 0.1));
+    }; // rolling and drag help a little
     EXPECT_GT(road, no_less(0.95));
     EXPECT_LT(road, 20);
     EXPECT_GT(grass, no_less(0.6));
@@ -171,7 +184,9 @@ TEST(Vehicle, StandsOnASlopeWithoutCreeping) {
 
 /// Rough land with steps, ditches and a cliff.
 double rough(double x, double z) {
-    return 4 * std::sin(x * 0.07) + 3 * std::cos(z * 0.11) + 0.3 * std::sin(x * 1.7) * std::cos(z * 1.3) + (x > 40 ? -6 : 0) + (std::fmod(std::abs(z), 30) < 1 ? -0.8 : 0);
+    return 4 * std::sin(x * 0.07) + 3 * std::cos(z * 0.11) +
+           0.3 * std::sin(x * 1.7) * std::cos(z * 1.3) + (x > 40 ? -6 : 0) +
+           (std::fmod(std::abs(z), 30) < 1 ? -0.8 : 0);
 }
 
 TEST(Vehicle, NeverFallsThroughAndNeverExplodesAtAnyRate) {
@@ -183,8 +198,11 @@ TEST(Vehicle, NeverFallsThroughAndNeverExplodesAtAnyRate) {
                 const double t = i / rate;
                 vehicle.advance(1 / rate, {std::fmod(t, 9) < 7 ? 1.0 : -1.0, std::sin(t * 0.6), 0});
                 const VehicleState state = vehicle.state();
-                ASSERT_TRUE(std::isfinite(glm::length(state.position) + glm::length(state.velocity_mps))) << name << rate << " " << t;
-                const glm::dvec3 middle = state.position + state.turn * glm::dvec3(0, vehicle.spec().mass_height_m, 0);
+                ASSERT_TRUE(
+                    std::isfinite(glm::length(state.position) + glm::length(state.velocity_mps)))
+                    << name << rate << " " << t;
+                const glm::dvec3 middle =
+                    state.position + state.turn * glm::dvec3(0, vehicle.spec().mass_height_m, 0);
                 ASSERT_GT(middle.y, rough(middle.x, middle.z) - 0.35) << name << rate << " " << t;
                 ASSERT_LT(glm::length(state.velocity_mps), 60) << name << rate << " " << t;
                 ASSERT_LT(middle.y, rough(middle.x, middle.z) + 30) << name << rate << " " << t;
@@ -216,7 +234,8 @@ TEST(Vehicle, FarFromTheMiddleItDrivesTheSame) {
 }
 
 TEST(Vehicle, AnOverturnedOneIsPutOnItsWheels) {
-    Vehicle vehicle(car(), {[](double x, double) { return x > 10 ? (x - 10) * 2.5 : 0.0; }, {}}); // a bank that rolls it
+    Vehicle vehicle(car(), {[](double x, double) { return x > 10 ? (x - 10) * 2.5 : 0.0; },
+                            {}}); // a bank that rolls it
     vehicle.put(0, 0, 60);
     drive(vehicle, 4, {1, 0, 0});
     drive(vehicle, 20, {});
@@ -224,11 +243,16 @@ TEST(Vehicle, AnOverturnedOneIsPutOnItsWheels) {
 }
 
 TEST(VehicleSpec, WrongPresetsAreToldWithFileAndKey) {
-    const std::string axles = "[front]\nahead_m = 1\ntrack_m = 1.5\nradius_m = 0.3\ndriven = true\n[rear]\nahead_m = -1\ntrack_m = 1.5\nradius_m = 0.3\n";
+    const std::string axles = "[front]\nahead_m = 1\ntrack_m = 1.5\nradius_m = 0.3\ndriven = "
+                              "true\n[rear]\nahead_m = -1\ntrack_m = 1.5\nradius_m = 0.3\n";
     EXPECT_NO_THROW(static_cast<void>(parse_vehicle(axles, "v.toml")));
-    for (const std::string& bad : {std::string("mass_kg = 0\n") + axles, std::string("mass = 3\n") + axles, std::string("grip = [1, 2]\n") + axles, std::string("name = 3\n") + axles,
-                                   std::string("= 3\n"), std::string("mass_kg = 900\n"), std::string("[front]\nahead_m = nan\n") + axles,
-                                   axles.substr(0, axles.find("driven")) + axles.substr(axles.find("[rear]")), axles + "spring_hz = 0.5\ntravel_m = 0.05\n"})
+    for (const std::string& bad :
+         {std::string("mass_kg = 0\n") + axles, std::string("mass = 3\n") + axles,
+          std::string("grip = [1, 2]\n") + axles, std::string("name = 3\n") + axles,
+          std::string("= 3\n"), std::string("mass_kg = 900\n"),
+          std::string("[front]\nahead_m = nan\n") + axles,
+          axles.substr(0, axles.find("driven")) + axles.substr(axles.find("[rear]")),
+          axles + "spring_hz = 0.5\ntravel_m = 0.05\n"})
         try {
             static_cast<void>(parse_vehicle(bad, "v.toml"));
             ADD_FAILURE() << bad;

@@ -23,7 +23,9 @@ public:
             put(value, 4);
         return *this;
     }
-    Writer& f32(double value, int times = 1) { return u32(std::bit_cast<std::uint32_t>(static_cast<float>(value)), times); }
+    Writer& f32(double value, int times = 1) {
+        return u32(std::bit_cast<std::uint32_t>(static_cast<float>(value)), times);
+    }
     Writer& f32(glm::dvec3 v) { return f32(v.x).f32(v.y).f32(v.z); }
     Writer& f64(double value, int times = 1) {
         for (; times > 0; --times)

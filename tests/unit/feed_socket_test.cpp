@@ -16,7 +16,8 @@ namespace {
 using namespace tests;
 
 /// What came, waited for as long as it takes.
-std::vector<Bytes> receive(UdpReceiver& receiver, std::size_t expected, std::vector<std::string>* senders = nullptr, double* age_s = nullptr) {
+std::vector<Bytes> receive(UdpReceiver& receiver, std::size_t expected,
+                           std::vector<std::string>* senders = nullptr, double* age_s = nullptr) {
     std::vector<Bytes> all;
     for (int i = 0; i < 5000 && all.size() < expected; ++i) {
         receiver.receive([&](const Datagram& datagram) {
@@ -42,8 +43,10 @@ TEST(FeedEndpoint, IsUdpAndAPortAndPerhapsAHost) {
     EXPECT_TRUE(is("udp:127.0.0.1:65535", "127.0.0.1", 65535));
     EXPECT_TRUE(is("udp:sim-host.example:5550", "sim-host.example", 5550));
     EXPECT_TRUE(is("udp:[::1]:5550", "::1", 5550));
-    for (const std::string bad : {"", "5550", "udp", "udp:", "udp::5550", "udp:65536", "udp:-1", "udp:+1", "udp: 1", "udp:1 ", "udp:5550x", "udp:host",
-                                  "udp:a b:1", "udp:[]:1", "udp:::1:5550", "tcp:5550", "UDP:5550", "udp:1e3", "udp:host:"})
+    for (const std::string bad :
+         {"", "5550", "udp", "udp:", "udp::5550", "udp:65536", "udp:-1", "udp:+1", "udp: 1",
+          "udp:1 ", "udp:5550x", "udp:host", "udp:a b:1", "udp:[]:1", "udp:::1:5550", "tcp:5550",
+          "UDP:5550", "udp:1e3", "udp:host:"})
         EXPECT_FALSE(parse_endpoint(bad)) << bad;
     EXPECT_FALSE(parse_endpoint("udp:" + std::string(300, 'a') + ":1"));
     EXPECT_FALSE(parse_endpoint(std::string_view("udp:a\0b:1", 9)));
@@ -53,7 +56,8 @@ TEST(FeedSocket, TakesFromLoopbackWhatIsSentToIt) {
     UdpReceiver receiver({"", 0}, "--native-fdm");
     EXPECT_GT(receiver.port(), 0);
     EXPECT_EQ(receiver.address(), "127.0.0.1:" + std::to_string(receiver.port()));
-    UdpSender sender({"localhost", receiver.port()}, "--udp-out"), other({"127.0.0.1", receiver.port()}, "--udp-out");
+    UdpSender sender({"localhost", receiver.port()}, "--udp-out"),
+        other({"127.0.0.1", receiver.port()}, "--udp-out");
     const Bytes packet = packet_of({}), large(5000, std::byte(1));
     EXPECT_TRUE(sender.send(packet));
     EXPECT_TRUE(sender.send({}));
@@ -73,7 +77,8 @@ TEST(FeedSocket, KnowsSinceWhenAPacketWaits) {
     UdpReceiver receiver({"", 0}, "--native-fdm");
     UdpSender sender({"", receiver.port()}, "--udp-out");
     double age = 0;
-    for (int i = 0; i < 200 && age < 0.03; ++i) { // the kernel begins to write times a little after it is asked to
+    for (int i = 0; i < 200 && age < 0.03;
+         ++i) { // the kernel begins to write times a little after it is asked to
         EXPECT_TRUE(sender.send(packet_of({})));
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
         EXPECT_EQ(receive(receiver, 1, nullptr, &age).size(), 1u);
@@ -106,10 +111,20 @@ TEST(FeedSocket, APortInUseAndAHostThatIsNoneAreErrorsOfInput) {
         }
         return "none";
     };
-    EXPECT_EQ(complaint([&] { UdpReceiver second({"", first.port()}, "--native-fdm"); }),
-              "--native-fdm: " + first.address() + ": found a port in use, expected an address of this machine and a port that is free");
-    EXPECT_NE(complaint([] { UdpReceiver elsewhere({"192.0.2.1", 0}, "--native-fdm"); }).find("--native-fdm: 192.0.2.1:0: found"), std::string::npos);
-    EXPECT_NE(complaint([] { UdpSender nobody({"256.1.1.1.invalid", 5}, "--udp-out"); }).find("256.1.1.1.invalid:5: found"), std::string::npos);
+    EXPECT_EQ(
+        complaint([&] {
+            UdpReceiver second({"", first.port()}, "--native-fdm");
+        }),
+        "--native-fdm: " + first.address() +
+            ": found a port in use, expected an address of this machine and a port that is free");
+    EXPECT_NE(complaint([] {
+                  UdpReceiver elsewhere({"192.0.2.1", 0}, "--native-fdm");
+              }).find("--native-fdm: 192.0.2.1:0: found"),
+              std::string::npos);
+    EXPECT_NE(complaint([] {
+                  UdpSender nobody({"256.1.1.1.invalid", 5}, "--udp-out");
+              }).find("256.1.1.1.invalid:5: found"),
+              std::string::npos);
 }
 
 TEST(FeedSocket, NobodyListeningIsNoError) {

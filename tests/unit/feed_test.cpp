@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Packets of flight models: what is read from them, which of them count, and how far a pose is carried on.
+// Packets of flight models: what is read from them, which of them count, and how far a pose is
+// carried on.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -20,11 +21,13 @@ using namespace tests;
 
 constexpr double kMetresPerDegree = 100'000;
 
-/// A flat Earth whose degrees are 100 km, about 50 north, 10 east. Its north leans by `lean_deg` to the east of the frame's.
+/// A flat Earth whose degrees are 100 km, about 50 north, 10 east. Its north leans by `lean_deg` to
+/// the east of the frame's.
 scene::PlaceOnEarth flat_earth(double lean_deg = 0) {
     const double c = std::cos(lean_deg * kDegree), s = std::sin(lean_deg * kDegree);
     return [=](double latitude, double longitude) {
-        const double north = (latitude - 50) * kMetresPerDegree, east = (longitude - 10) * kMetresPerDegree;
+        const double north = (latitude - 50) * kMetresPerDegree,
+                     east = (longitude - 10) * kMetresPerDegree;
         return glm::dvec2(east * c + north * s, east * s - north * c);
     };
 }
@@ -39,8 +42,8 @@ Said flight_at(int packet, std::uint32_t time_step = 0) {
 }
 
 bool same(const FeedPose& a, const FeedPose& b) {
-    return a.position == b.position && a.velocity_mps == b.velocity_mps && a.yaw_deg == b.yaw_deg && a.pitch_deg == b.pitch_deg &&
-           a.roll_deg == b.roll_deg;
+    return a.position == b.position && a.velocity_mps == b.velocity_mps && a.yaw_deg == b.yaw_deg &&
+           a.pitch_deg == b.pitch_deg && a.roll_deg == b.roll_deg;
 }
 
 TEST(Fdm, BothVersionsSayWhatTheySaid) {
@@ -74,12 +77,16 @@ TEST(Fdm, NoOtherSizeAndNoOtherVersionIsRead) {
         said.version = version;
         const Bytes whole = packet_of(said);
         for (std::size_t size = 0; size < 700; ++size) {
-            Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(std::min(size, whole.size())));
+            Bytes cut(whole.begin(),
+                      whole.begin() + static_cast<std::ptrdiff_t>(std::min(size, whole.size())));
             cut.resize(size);
-            EXPECT_EQ(decode_fdm(cut).fault, size == whole.size() ? FdmFault::kNone : FdmFault::kSize) << size;
+            EXPECT_EQ(decode_fdm(cut).fault,
+                      size == whole.size() ? FdmFault::kNone : FdmFault::kSize)
+                << size;
         }
     }
-    for (const std::uint32_t version : {0u, 23u, 26u, 0x18000000u, 0xffffffffu}) { // the fourth: 24 in the other byte order
+    for (const std::uint32_t version :
+         {0u, 23u, 26u, 0x18000000u, 0xffffffffu}) { // the fourth: 24 in the other byte order
         Said said;
         said.version = version;
         EXPECT_EQ(decode_fdm(packet_of(said)).fault, FdmFault::kVersion) << version;
@@ -87,7 +94,8 @@ TEST(Fdm, NoOtherSizeAndNoOtherVersionIsRead) {
 }
 
 TEST(Fdm, NumbersThatAreNoneAndPlacesThatAreNoneAreRefused) {
-    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
     const auto fault = [](auto change) {
         Said said;
         change(said);
@@ -127,7 +135,9 @@ TEST(PoseTrack, StandsWhereThePacketSaysAndGoesOnForATenthOfASecond) {
     EXPECT_NEAR(at.yaw_deg, 7.5, 1e-5);
     EXPECT_NEAR(at.pitch_deg, 4, 1e-5);
     EXPECT_NEAR(at.roll_deg, 5, 1e-5);
-    EXPECT_LT(glm::length(track.pose(100.05)->position - at.position - 0.05 * glm::dvec3(8, 2, -60)), 1e-5);
+    EXPECT_LT(
+        glm::length(track.pose(100.05)->position - at.position - 0.05 * glm::dvec3(8, 2, -60)),
+        1e-5);
     const FeedPose last = *track.pose(100.11);
     EXPECT_LT(glm::length(last.position - at.position - 0.1 * glm::dvec3(8, 2, -60)), 1e-5);
     for (const double later : {100.2, 101.0, 1e6})
@@ -139,7 +149,8 @@ TEST(PoseTrack, StandsWhereThePacketSaysAndGoesOnForATenthOfASecond) {
 }
 
 TEST(PoseTrack, TurnsOnAsTheRatesSay) {
-    // A steady turn, banked: only the heading changes, though all three of the aircraft's own axes turn.
+    // A steady turn, banked: only the heading changes, though all three of the aircraft's own axes
+    // turn.
     PoseTrack track(flat_earth());
     Said said;
     said.attitude_deg = {30, 5, 350};
@@ -149,7 +160,8 @@ TEST(PoseTrack, TurnsOnAsTheRatesSay) {
     EXPECT_NEAR(std::remainder(later.yaw_deg - 352, 360), 0, 1e-4);
     EXPECT_NEAR(later.pitch_deg, 5, 1e-4);
     EXPECT_NEAR(later.roll_deg, 30, 1e-4);
-    // A loop over the top: 89 degrees up and 40 a second on: 93 is 87 with the heading and the roll turned over.
+    // A loop over the top: 89 degrees up and 40 a second on: 93 is 87 with the heading and the roll
+    // turned over.
     said.attitude_deg = {0, 89, 0};
     said.rates_deg = {0, 40, 0};
     PoseTrack loop(flat_earth());
@@ -179,7 +191,9 @@ TEST(PoseTrack, NorthIsWhereItIsOnEarth) {
 TEST(PoseTrack, PlacesThatTheFrameDoesNotHoldAreBadPackets) {
     PoseTrack nowhere{scene::PlaceOnEarth()};
     EXPECT_EQ(nowhere.take(packet_of({}), "a", 0), Packet::kRange);
-    PoseTrack throws([](double, double) -> glm::dvec2 { throw base::Error(base::ExitCode::kBadInput, "no place"); });
+    PoseTrack throws([](double, double) -> glm::dvec2 {
+        throw base::Error(base::ExitCode::kBadInput, "no place");
+    });
     EXPECT_EQ(throws.take(packet_of({}), "a", 0), Packet::kRange);
     PoseTrack track(flat_earth());
     Said far;
@@ -194,7 +208,8 @@ TEST(PoseTrack, DoubledReplayedAndLatePacketsChangeNothing) {
         for (int i = 0; i < 100; ++i) {
             if (i == 90 || i == 95) // lost for now
                 continue;
-            ASSERT_EQ(track.take(packet_of(flight_at(i, time_step)), "a", i / 60.0), Packet::kTaken) << i;
+            ASSERT_EQ(track.take(packet_of(flight_at(i, time_step)), "a", i / 60.0), Packet::kTaken)
+                << i;
         }
         const double now = 99 / 60.0 + 0.001;
         const FeedPose before = *track.pose(now);
@@ -241,10 +256,12 @@ TEST(PoseTrack, AnAircraftMayStandBeMovedAndTurnBack) {
     int refused = 0;
     track.take(packet_of(flight_at(-4999)), "a", 2.04);
     for (int i = 0; i < 120; ++i)
-        refused += track.take(packet_of(flight_at(-5001 - i)), "a", 2.05 + i / 60.0) != Packet::kTaken;
+        refused +=
+            track.take(packet_of(flight_at(-5001 - i)), "a", 2.05 + i / 60.0) != Packet::kTaken;
     EXPECT_GT(refused, 0);
     EXPECT_LE(refused, 31);
-    EXPECT_LT(glm::length(track.pose(2.05 + 119 / 60.0)->position - glm::dvec3(0, 300, 5120)), 1e-6);
+    EXPECT_LT(glm::length(track.pose(2.05 + 119 / 60.0)->position - glm::dvec3(0, 300, 5120)),
+              1e-6);
 }
 
 TEST(PoseTrack, ASenderThatRepeatsItsStateIsNotPulledBack) {
@@ -252,7 +269,8 @@ TEST(PoseTrack, ASenderThatRepeatsItsStateIsNotPulledBack) {
     double before = 1;
     for (int i = 0; i < 80; ++i) { // 60 packets a second of a model that steps 7.5 times
         const double now = i / 60.0;
-        EXPECT_EQ(track.take(packet_of(flight_at(i / 8 * 8)), "a", now), i % 8 == 0 ? Packet::kTaken : Packet::kDoubled);
+        EXPECT_EQ(track.take(packet_of(flight_at(i / 8 * 8)), "a", now),
+                  i % 8 == 0 ? Packet::kTaken : Packet::kDoubled);
         const double z = track.pose(now)->position.z;
         EXPECT_LE(z, before) << i;
         before = z;
@@ -266,7 +284,8 @@ TEST(PoseTrack, AfterASilenceAnythingMayBegin) {
     EXPECT_EQ(track.take(packet_of(flight_at(0, 1000)), "b", 0.3), Packet::kForeign);
     // The very same flight from the start, by another process.
     for (int i = 0; i < 10; ++i)
-        EXPECT_EQ(track.take(packet_of(flight_at(i, 1000)), "b", 1 + i / 60.0), Packet::kTaken) << i;
+        EXPECT_EQ(track.take(packet_of(flight_at(i, 1000)), "b", 1 + i / 60.0), Packet::kTaken)
+            << i;
     EXPECT_EQ(track.take(packet_of(flight_at(10, 1000)), "a", 1.2), Packet::kForeign);
 }
 
@@ -287,19 +306,32 @@ Bytes hostile_packet(std::mt19937& dice, int newest, std::uint32_t time_step) {
         packet.resize(packet.size() + 1 + dice() % 1400, std::byte(random()));
         return packet;
     }
-    case 2: said.version = dice() % 2 ? 23 : 26; break;
+    case 2:
+        said.version = dice() % 2 ? 23 : 26;
+        break;
     case 3: { // noise
         Bytes packet(random() % 2 ? kFdm24Bytes : kFdm25Bytes);
         for (std::byte& b : packet)
             b = static_cast<std::byte>(random());
         return packet;
     }
-    case 4: (random() % 2 ? said.latitude_deg : said.altitude_m) = random() % 2 ? nan : 1e300; break;
-    case 5: said.attitude_deg[random() % 3] = random() % 2 ? nan : 1e30; break;
-    case 6: said.velocity_mps[random() % 3] = random() % 2 ? nan : -1e30; break;
-    case 7: said.longitude_deg = 10 + 50 + random() % 100; break; // off the frame
-    case 8: said = flight_at(newest, time_step); break;                   // doubled
-    default: said = flight_at(newest - random() % 1500, time_step);  // replayed
+    case 4:
+        (random() % 2 ? said.latitude_deg : said.altitude_m) = random() % 2 ? nan : 1e300;
+        break;
+    case 5:
+        said.attitude_deg[random() % 3] = random() % 2 ? nan : 1e30;
+        break;
+    case 6:
+        said.velocity_mps[random() % 3] = random() % 2 ? nan : -1e30;
+        break;
+    case 7:
+        said.longitude_deg = 10 + 50 + random() % 100;
+        break; // off the frame
+    case 8:
+        said = flight_at(newest, time_step);
+        break; // doubled
+    default:
+        said = flight_at(newest - random() % 1500, time_step); // replayed
     }
     return packet_of(said);
 }
@@ -317,7 +349,10 @@ TEST(PoseTrack, TenThousandHostilePacketsChangeNothingButCounters) {
             for (int j = 0; i >= 1500 && j < 20; ++j, ++hostile) {
                 const double then = now + j * 0.0008;
                 const bool foreign = random() % 8 == 0;
-                ASSERT_NE(bothered.take(foreign ? packet_of(flight_at(i + 1000)) : hostile_packet(random, i, time_step), foreign ? "b" : "a", then), Packet::kTaken);
+                ASSERT_NE(bothered.take(foreign ? packet_of(flight_at(i + 1000))
+                                                : hostile_packet(random, i, time_step),
+                                        foreign ? "b" : "a", then),
+                          Packet::kTaken);
                 ASSERT_TRUE(same(*bothered.pose(then), *alone.pose(then)));
                 ASSERT_EQ(bothered.stream(then), Stream::kLive);
             }
@@ -346,7 +381,16 @@ TEST(GroundReport, IsThePacketThatIsWrittenDown) {
     report.surface = SurfaceClass::kSparse;
     report.wind_mps = {1.5, 2.5, -3.5};
     Writer w;
-    w.u32(0x53574744).u32(1).u32(5).u32(1).f64(12.5).f64(10 * kDegree).f64(50 * kDegree).f64(3).f64(-4).f64(321.25);
+    w.u32(0x53574744)
+        .u32(1)
+        .u32(5)
+        .u32(1)
+        .f64(12.5)
+        .f64(10 * kDegree)
+        .f64(50 * kDegree)
+        .f64(3)
+        .f64(-4)
+        .f64(321.25);
     w.f32({0.75, 0.25, -0.5}).f32({3.5, 1.5, -2.5}).u32(2).u32(99);
     const auto packet = encode_report(report);
     EXPECT_EQ(Bytes(packet.begin(), packet.end()), w.bytes);

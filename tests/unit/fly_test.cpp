@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The aeroplane over grounds that are functions: what a pilot would notice, and what must never happen.
+// The aeroplane over grounds that are functions: what a pilot would notice, and what must never
+// happen.
 #include <cmath>
 #include <string>
 
@@ -29,7 +30,8 @@ void fly(Aeroplane& plane, double seconds, const Stick& stick, double rate = 60)
 }
 
 double bank_deg(const AeroplaneState& state) {
-    return std::atan2(-(state.turn * glm::dvec3(1, 0, 0)).y, (state.turn * glm::dvec3(0, 1, 0)).y) / kDegree;
+    return std::atan2(-(state.turn * glm::dvec3(1, 0, 0)).y, (state.turn * glm::dvec3(0, 1, 0)).y) /
+           kDegree;
 }
 
 double heading_deg(const AeroplaneState& state) {
@@ -76,7 +78,9 @@ TEST(Aeroplane, StickAndPedalsTurnItAsAPilotExpects) {
     const auto hold_bank = [&](double seconds) {
         for (int i = 0; i < static_cast<int>(seconds * 60); ++i) {
             const AeroplaneState state = plane.state();
-            plane.advance(1 / 60.0, {std::clamp(0.03 * (30 - bank_deg(state)) - 0.4 * state.rates.x, -1.0, 1.0), 0.12 - 0.02 * state.velocity_mps.y, 0.05, throttle, 0});
+            plane.advance(1 / 60.0, {std::clamp(0.03 * (30 - bank_deg(state)) - 0.4 * state.rates.x,
+                                                -1.0, 1.0),
+                                     0.12 - 0.02 * state.velocity_mps.y, 0.05, throttle, 0});
         }
     };
     hold_bank(8);
@@ -111,7 +115,11 @@ TEST(Aeroplane, TheGroundHelpsItsWing) {
         plane.put_in_air({0, height, 0}, 0);
         for (int i = 0; i < 14 * 60; ++i) {
             const AeroplaneState state = plane.state();
-            plane.advance(1 / 60.0, {0, std::clamp(0.08 * (height - state.position.y) - 0.12 * state.velocity_mps.y, -1.0, 1.0), 0, 0, 0});
+            plane.advance(1 / 60.0, {0,
+                                     std::clamp(0.08 * (height - state.position.y) -
+                                                    0.12 * state.velocity_mps.y,
+                                                -1.0, 1.0),
+                                     0, 0, 0});
         }
         return plane.state().airspeed_mps;
     };
@@ -172,7 +180,8 @@ TEST(Aeroplane, NothingThatIsAskedMakesItNoNumber) {
     for (const double much : {1.0, -1.0, 1e9, -1e9}) {
         plane.put_in_air({0, 100, 0}, 0);
         fly(plane, 20, {much, -much, much, much, much});
-        EXPECT_TRUE(std::isfinite(plane.state().position.x + plane.state().position.y + plane.state().turn.w));
+        EXPECT_TRUE(std::isfinite(plane.state().position.x + plane.state().position.y +
+                                  plane.state().turn.w));
     }
     plane.advance(NAN, {});
     plane.advance(INFINITY, {});
@@ -181,7 +190,9 @@ TEST(Aeroplane, NothingThatIsAskedMakesItNoNumber) {
 
 TEST(AeroplaneSpec, WrongPresetsAreToldWithFileAndKey) {
     EXPECT_NO_THROW(static_cast<void>(parse_aeroplane("", "a.toml")));
-    for (const char* const bad : {"mass_kg = 0", "mass = 3", "span_m = nan", "inertia_kgm2 = [1, 2]", "[air]\npitch_slope = 0.5", "[air]\nlift = 3", "cruise_mps = 15", "= 3"})
+    for (const char* const bad :
+         {"mass_kg = 0", "mass = 3", "span_m = nan", "inertia_kgm2 = [1, 2]",
+          "[air]\npitch_slope = 0.5", "[air]\nlift = 3", "cruise_mps = 15", "= 3"})
         try {
             static_cast<void>(parse_aeroplane(bad, "a.toml"));
             ADD_FAILURE() << bad;
@@ -198,7 +209,8 @@ TEST(AeroplaneMesh, HasItsPresetsMeasuresAndLeavesThePilotsViewFree) {
     for (const glm::vec3& at : mesh.positions) {
         low = glm::min(low, at);
         high = glm::max(high, at);
-        EXPECT_TRUE(at.z > -0.6f || static_cast<double>(at.y) < spec.eye_m.y - 0.2) << "ahead of the pilot";
+        EXPECT_TRUE(at.z > -0.6f || static_cast<double>(at.y) < spec.eye_m.y - 0.2)
+            << "ahead of the pilot";
     }
     EXPECT_NEAR(high.x - low.x, spec.span_m, 1e-4);
     EXPECT_NEAR(low.y, -spec.gear_m, 1e-4);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BC5 against brute force over every pair of end points, and against a decoder written from the format's
-// text in another way.
+// BC5 against brute force over every pair of end points, and against a decoder written from the
+// format's text in another way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -50,7 +50,8 @@ double error_of_block(const Bc4Block& block, const Values& values, std::uint16_t
     return sum;
 }
 
-/// Squared error of our blocks over the least that is possible, summed over blocks; and the worst block's.
+/// Squared error of our blocks over the least that is possible, summed over blocks; and the worst
+/// block's.
 struct Score {
     double ours = 0, least = 0, worst = 1;
     void add(const Values& values, std::uint16_t used) {
@@ -82,7 +83,8 @@ TEST(Bc4, NearTheLeastErrorOnRandomBlocks) {
         narrow.add(b, used);
         blades.add(c, used);
     }
-    for (const Score& score : {uniform, narrow, blades}) { // the descent ends in a hollow now and then
+    for (const Score& score :
+         {uniform, narrow, blades}) { // the descent ends in a hollow now and then
         EXPECT_LT(score.ours, 1.2 * score.least);
         EXPECT_LT(score.worst, 3);
     }
@@ -150,7 +152,8 @@ TEST(Bc5, PlanesPartAndJoinAgain) {
     for (int i = 0; i < planes.layers / 2; ++i)
         grass::compress_shape(planes, i, shapes);
     const grass::TextureArray ids = grass::id_planes(before);
-    EXPECT_EQ(grass::join_planes(ids, shapes).mips, planes.mips); // a reader gets what the writer has
+    EXPECT_EQ(grass::join_planes(ids, shapes).mips,
+              planes.mips); // a reader gets what the writer has
     double sum = 0;
     std::size_t used = 0;
     const std::size_t bytes = grass::mip_bytes(planes, 0) / static_cast<std::size_t>(planes.layers);

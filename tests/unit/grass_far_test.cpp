@@ -28,7 +28,8 @@ TEST(FarTier, CalibratedItCoversWhatTheBladesCover) {
     const grass::GrassSet& set = small_set();
     for (const float elevation : {90.0f, 60.0f, 45.0f, 30.0f, 10.0f}) {
         const grass::FarRow& row = row_at(set, elevation);
-        const grass::FarRow flat = flat_coverage(set, 0, elevation, {row.shell_share, row.slice_share}, kRays);
+        const grass::FarRow flat =
+            flat_coverage(set, 0, elevation, {row.shell_share, row.slice_share}, kRays);
         EXPECT_NEAR(flat.coverage, row.coverage, 0.03) << elevation;
     }
 }
@@ -61,8 +62,11 @@ TEST(FarTier, SharesNeededAreWhatRaysMeetAtEachShare) {
         const std::vector<float> needed = shares_needed(set, 1, row, 4000);
         double before = -1;
         for (const float share : {0.0f, 0.3f, 1.0f, 3.0f}) {
-            const auto met = static_cast<double>(std::ranges::upper_bound(needed, share) - needed.begin());
-            EXPECT_NEAR(met / 4000, flat_coverage(set, 1, elevation, {share, 1}, 4000).coverage, 1e-6) << share;
+            const auto met =
+                static_cast<double>(std::ranges::upper_bound(needed, share) - needed.begin());
+            EXPECT_NEAR(met / 4000, flat_coverage(set, 1, elevation, {share, 1}, 4000).coverage,
+                        1e-6)
+                << share;
             EXPECT_GT(met, before) << share; // each share adds some
             before = met;
         }

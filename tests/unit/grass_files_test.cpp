@@ -63,7 +63,8 @@ grass::TextureArray noise_of(grass::TexelFormat format) {
     grass::TextureArray array{40, 12, 3, {}, format};
     for (int m = 0; m < 4; ++m) {
         array.mips.emplace_back(grass::mip_bytes(array, m));
-        for (std::size_t i = 0; i < array.mips.back().size(); ++i) // 0x3F at every fourth: finite floats
+        for (std::size_t i = 0; i < array.mips.back().size();
+             ++i) // 0x3F at every fourth: finite floats
             array.mips.back()[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3F : i * 37 % 251);
     }
     return array;
@@ -110,8 +111,8 @@ TEST(Ktx2, RefusesNanAndDescriptorsOfOtherFormats) {
     grass::TextureArray array = noise_of(grass::TexelFormat::kRgba32f);
     const float nan = std::nanf("");
     std::memcpy(array.mips[2].data() + 16, &nan, sizeof nan);
-    const auto [code, text] = error_of(
-        [&] { (void)grass::decode_ktx2(grass::encode_ktx2(array, 3), "nan.ktx2"); });
+    const auto [code, text] =
+        error_of([&] { (void)grass::decode_ktx2(grass::encode_ktx2(array, 3), "nan.ktx2"); });
     EXPECT_EQ(code, ExitCode::kBadInput);
     EXPECT_NE(text.find("finite"), std::string::npos) << text;
     std::vector<std::byte> bytes = grass::encode_ktx2(noise_of(grass::TexelFormat::kBc5), 0);
@@ -129,27 +130,29 @@ TEST(Ktx2, DescriptorsAreThoseOfTheFormat) {
     };
     const std::vector<std::byte> bc = grass::encode_ktx2(noise_of(grass::TexelFormat::kBc5), 3);
     std::size_t dfd = word(bc, 48);
-    EXPECT_EQ(word(bc, dfd), 60u);                  // 4 + 24 + 2 * 16
-    EXPECT_EQ(word(bc, dfd + 8), 2u | 56u << 16);   // version 1.3, block size
-    EXPECT_EQ(word(bc, dfd + 12), 0x00010184u);     // BC5, BT.709, linear
-    EXPECT_EQ(word(bc, dfd + 16), 0x0303u);         // 4 x 4
-    EXPECT_EQ(word(bc, dfd + 20), 16u);             // bytes of plane 0
-    EXPECT_EQ(word(bc, dfd + 28), 63u << 16);       // red: bits 0..63
+    EXPECT_EQ(word(bc, dfd), 60u);                // 4 + 24 + 2 * 16
+    EXPECT_EQ(word(bc, dfd + 8), 2u | 56u << 16); // version 1.3, block size
+    EXPECT_EQ(word(bc, dfd + 12), 0x00010184u);   // BC5, BT.709, linear
+    EXPECT_EQ(word(bc, dfd + 16), 0x0303u);       // 4 x 4
+    EXPECT_EQ(word(bc, dfd + 20), 16u);           // bytes of plane 0
+    EXPECT_EQ(word(bc, dfd + 28), 63u << 16);     // red: bits 0..63
     EXPECT_EQ(word(bc, dfd + 40), 0xFFFFFFFFu);
     EXPECT_EQ(word(bc, dfd + 44), 64u | 63u << 16 | 1u << 24); // green
-    const std::vector<std::byte> real = grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba32f), 0);
+    const std::vector<std::byte> real =
+        grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba32f), 0);
     dfd = word(real, 48);
     EXPECT_EQ(word(real, 16), 4u); // type size
     EXPECT_EQ(word(real, dfd + 12), 0x00010101u);
-    EXPECT_EQ(word(real, dfd + 28), 0xC01F0000u);                  // red, signed float, 32 bits
-    EXPECT_EQ(word(real, dfd + 28 + 3 * 16), 0xCF1F0000u | 96u);   // alpha
-    EXPECT_EQ(word(real, dfd + 36), 0xBF800000u);                  // -1
-    EXPECT_EQ(word(real, dfd + 40), 0x3F800000u);                  // 1
-    const std::vector<std::byte> srgb = grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba8Srgb), 0);
+    EXPECT_EQ(word(real, dfd + 28), 0xC01F0000u);                // red, signed float, 32 bits
+    EXPECT_EQ(word(real, dfd + 28 + 3 * 16), 0xCF1F0000u | 96u); // alpha
+    EXPECT_EQ(word(real, dfd + 36), 0xBF800000u);                // -1
+    EXPECT_EQ(word(real, dfd + 40), 0x3F800000u);                // 1
+    const std::vector<std::byte> srgb =
+        grass::encode_ktx2(noise_of(grass::TexelFormat::kRgba8Srgb), 0);
     dfd = word(srgb, 48);
-    EXPECT_EQ(word(srgb, dfd + 12), 0x00020101u);                  // RGBSDA, BT.709, sRGB
-    EXPECT_EQ(word(srgb, dfd + 28), 7u << 16);                     // red
-    EXPECT_EQ(word(srgb, dfd + 28 + 3 * 16), 0x1F070000u | 24u);   // alpha, linear
+    EXPECT_EQ(word(srgb, dfd + 12), 0x00020101u);                // RGBSDA, BT.709, sRGB
+    EXPECT_EQ(word(srgb, dfd + 28), 7u << 16);                   // red
+    EXPECT_EQ(word(srgb, dfd + 28 + 3 * 16), 0x1F070000u | 24u); // alpha, linear
 }
 
 TEST(Ktx2, ASingleTextureIsNoArrayAndMayBeLarger) {
@@ -164,7 +167,10 @@ TEST(Ktx2, ASingleTextureIsNoArrayAndMayBeLarger) {
     EXPECT_EQ(back.layers, 1);
     EXPECT_EQ(back.mips, atlas.mips);
     atlas.plain = false;
-    EXPECT_EQ(error_of([&] { (void)grass::decode_ktx2(grass::encode_ktx2(atlas, 3), "wide.ktx2"); }).first, ExitCode::kOverLimit);
+    EXPECT_EQ(error_of([&] {
+                  (void)grass::decode_ktx2(grass::encode_ktx2(atlas, 3), "wide.ktx2");
+              }).first,
+              ExitCode::kOverLimit);
 }
 
 TEST(Ktx2, RefusesCutFlippedAndForeignBytes) {
@@ -261,7 +267,9 @@ TEST(GrassSet, SameSeedSameBytesAtAnyThreadCountAndReadsBackEqual) {
     ASSERT_EQ(read.species.size(), made.species.size());
     for (std::size_t s = 0; s < made.species.size(); ++s) {
         EXPECT_EQ(read.species[s].name, made.species[s].name);
-        EXPECT_EQ(std::memcmp(&read.species[s].look, &made.species[s].look, sizeof made.species[s].look), 0);
+        EXPECT_EQ(
+            std::memcmp(&read.species[s].look, &made.species[s].look, sizeof made.species[s].look),
+            0);
     }
     for (std::size_t k = 0; k < made.levels.size(); ++k) {
         EXPECT_EQ(read.levels[k].layer_edges, made.levels[k].layer_edges);

@@ -29,7 +29,8 @@ using base::ExitCode;
 constexpr int kRays = 16384; // 0.4 points
 
 ImportQuery small_query() {
-    return {.name = "imported", .layers = 8, .slices = 8, .levels = 3, .far_rays = kRays, .threads = 2};
+    return {
+        .name = "imported", .layers = 8, .slices = 8, .levels = 3, .far_rays = kRays, .threads = 2};
 }
 
 /// volume.vdb of the small set, through the file and back.
@@ -65,13 +66,19 @@ TEST(Import, OwnVolumeCoversWhatItsBladesDo) {
     ASSERT_EQ(set.far.size(), blades.size());
     for (std::size_t i = 0; i < blades.size(); ++i) {
         const grass::FarRow& row = set.far[i];
-        EXPECT_NEAR(row.coverage, blades[i].coverage, 0.03) << blades[i].elevation_deg << " degrees, rays";
-        EXPECT_NEAR(row.height * set.canopy_m, blades[i].height * small_set().canopy_m, 0.015) << blades[i].elevation_deg << " degrees";
+        EXPECT_NEAR(row.coverage, blades[i].coverage, 0.03)
+            << blades[i].elevation_deg << " degrees, rays";
+        EXPECT_NEAR(row.height * set.canopy_m, blades[i].height * small_set().canopy_m, 0.015)
+            << blades[i].elevation_deg << " degrees";
         if (row.elevation_deg < 5)
             continue;
-        const double flat = flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, kRays).coverage;
-        EXPECT_NEAR(flat, blades[i].coverage, 0.03) << blades[i].elevation_deg << " degrees, textures";
-        std::printf("%5.1f: blades %.3f, voxels %.3f, textures %.3f\n", row.elevation_deg, blades[i].coverage, row.coverage, flat);
+        const double flat =
+            flat_coverage(set, 0, row.elevation_deg, {row.shell_share, row.slice_share}, kRays)
+                .coverage;
+        EXPECT_NEAR(flat, blades[i].coverage, 0.03)
+            << blades[i].elevation_deg << " degrees, textures";
+        std::printf("%5.1f: blades %.3f, voxels %.3f, textures %.3f\n", row.elevation_deg,
+                    blades[i].coverage, row.coverage, flat);
     }
 }
 
@@ -84,7 +91,8 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
     for (const float v : {0.2f, 0.8f}) {
         glm::vec3 mean(0), found(0);
         for (int n = 0; n < 256; ++n) {
-            const glm::vec2 id((static_cast<float>(n) + 0.5f) / 256, (static_cast<float>(n * 37 % 256) + 0.5f) / 256);
+            const glm::vec2 id((static_cast<float>(n) + 0.5f) / 256,
+                               (static_cast<float>(n * 37 % 256) + 0.5f) / 256);
             mean += shared::blade_albedo(small_set().species[0].look, id, v, 0) / 256.0f;
             for (const grass::Species& species : set.species) // dry blades are one of their own
                 found += species.share * shared::blade_albedo(species.look, id, v, 0) / 256.0f;
@@ -95,8 +103,10 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
     // Every texel of the lowest layer names a blade that the set knows, and points at its root.
     const grass::FarLevel& level = set.levels[0];
     const int index = shared::layer_index(0, 0, level.layer_count, shared::kPlaneId);
-    const std::size_t texels = static_cast<std::size_t>(level.layers.width) * static_cast<std::size_t>(level.layers.height);
-    const std::uint8_t* id = level.layers.mips[0].data() + 4 * texels * static_cast<std::size_t>(index);
+    const std::size_t texels = static_cast<std::size_t>(level.layers.width) *
+                               static_cast<std::size_t>(level.layers.height);
+    const std::uint8_t* id =
+        level.layers.mips[0].data() + 4 * texels * static_cast<std::size_t>(index);
     const std::uint8_t* shape = id + 4 * texels;
     int covered = 0, right = 0;
     for (std::size_t t = 0; t < texels; ++t) {
@@ -104,13 +114,21 @@ TEST(Import, OwnVolumeKeepsColoursRanksAndRoots) {
             continue;
         ++covered;
         const double texel = static_cast<double>(set.side_m) / level.layers.width;
-        const glm::vec2 offset = shared::decode_offset(glm::vec2(shape[4 * t + 2], shape[4 * t + 3]) / 255.0f, set.offset_range_m);
-        const double x = (static_cast<double>(t % static_cast<std::size_t>(level.layers.width)) + 0.5) * texel + offset.x;
-        const double z = (static_cast<double>(t / static_cast<std::size_t>(level.layers.width)) + 0.5) * texel + offset.y;
+        const glm::vec2 offset = shared::decode_offset(
+            glm::vec2(shape[4 * t + 2], shape[4 * t + 3]) / 255.0f, set.offset_range_m);
+        const double x =
+            (static_cast<double>(t % static_cast<std::size_t>(level.layers.width)) + 0.5) * texel +
+            offset.x;
+        const double z =
+            (static_cast<double>(t / static_cast<std::size_t>(level.layers.width)) + 0.5) * texel +
+            offset.y;
         for (std::uint32_t b = 0; b < small_set().variant_begin[1]; ++b) {
             const shared::BladeRecord& blade = small_set().blades[b];
-            const auto apart = [&](double a, double c) { return std::abs(nearest_image(a - c, set.side_m)); };
-            if (static_cast<int>(blade.root.z * 256) == id[4 * t + 1] && static_cast<int>(blade.root.w * 256) == id[4 * t + 2] &&
+            const auto apart = [&](double a, double c) {
+                return std::abs(nearest_image(a - c, set.side_m));
+            };
+            if (static_cast<int>(blade.root.z * 256) == id[4 * t + 1] &&
+                static_cast<int>(blade.root.w * 256) == id[4 * t + 2] &&
                 apart(blade.root.x, x) < 0.02 && apart(blade.root.y, z) < 0.02) {
                 ++right;
                 break;
@@ -146,7 +164,9 @@ Volume post_cloud(int side, int height) {
         for (int z = 0; z < side; ++z)
             for (int x = 0; x < side; ++x)
                 if (x % 16 < 2 && z % 16 < 2) {
-                    volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z)});
+                    volume.at.push_back({static_cast<std::uint16_t>(x),
+                                         static_cast<std::uint16_t>(y),
+                                         static_cast<std::uint16_t>(z)});
                     volume.density.push_back(1);
                 }
     return volume;
@@ -155,7 +175,8 @@ Volume post_cloud(int side, int height) {
 TEST(Import, ACloudsDensityIsItsOpacity) {
     const Volume volume = post_cloud(64, 20);
     const grass::GrassSet set = import_volume(volume, small_query(), "posts.vdb");
-    // Seen from above, the posts cover 4 of 256 cells; at 45 degrees a post shows its top and its side as well.
+    // Seen from above, the posts cover 4 of 256 cells; at 45 degrees a post shows its top and its
+    // side as well.
     EXPECT_NEAR(set.far[0].coverage, 4.0 / 256, 0.004);
     EXPECT_GT(set.far[4].coverage, 0.1);
     EXPECT_EQ(set.levels[0].layers.width, 64);
@@ -169,9 +190,12 @@ TEST(Import, ACloudsDensityIsItsOpacity) {
 
 /// Share of what covers an image that texels of a species cover.
 double share_of(const grass::FarLevel& level, std::size_t mip, int species) {
-    const std::size_t texels = std::max<std::size_t>(1, static_cast<std::size_t>(level.layers.width) >> mip);
-    const std::uint8_t* id = level.layers.mips[mip].data() +
-                             4 * texels * texels * static_cast<std::size_t>(shared::layer_index(0, 0, level.layer_count, shared::kPlaneId));
+    const std::size_t texels =
+        std::max<std::size_t>(1, static_cast<std::size_t>(level.layers.width) >> mip);
+    const std::uint8_t* id =
+        level.layers.mips[mip].data() + 4 * texels * texels *
+                                            static_cast<std::size_t>(shared::layer_index(
+                                                0, 0, level.layer_count, shared::kPlaneId));
     double own = 0, all = 0;
     for (std::size_t t = 0; t < texels * texels; ++t) {
         all += id[4 * t];
@@ -191,10 +215,12 @@ TEST(Import, ThinStrandsKeepTheirColour) {
                 const bool thin = x % 8 == 6 && z % 8 == 5;
                 if (!thin && (x % 8 > 1 || z % 8 > 1))
                     continue;
-                volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z)});
+                volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                                     static_cast<std::uint16_t>(z)});
                 volume.density.push_back(1);
                 const float value = 0.9f + 0.2f * static_cast<float>((x * 7 + z * 3) % 5) / 4.0f;
-                volume.colour.push_back((thin ? glm::vec3(0.6f, 0.05f, 0.04f) : glm::vec3(0.08f, 0.2f, 0.03f)) * value);
+                volume.colour.push_back(
+                    (thin ? glm::vec3(0.6f, 0.05f, 0.04f) : glm::vec3(0.08f, 0.2f, 0.03f)) * value);
             }
     ImportQuery query = small_query();
     query.size = 32;
@@ -221,7 +247,9 @@ TEST(Import, DirectionsAreEstimatedWhereTheVolumeHasNone) {
         for (int z = 0; z < 64; ++z)
             for (int x = 0; x < 64; ++x)
                 if ((x - y + 64) % 16 < 3 && z % 16 < 3) {
-                    volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z)});
+                    volume.at.push_back({static_cast<std::uint16_t>(x),
+                                         static_cast<std::uint16_t>(y),
+                                         static_cast<std::uint16_t>(z)});
                     volume.density.push_back(1);
                 }
     const VoxelField field(volume, 1);
@@ -242,21 +270,27 @@ TEST(Import, DirectionsAreEstimatedWhereTheVolumeHasNone) {
 TEST(Import, RefusesWhatNoPatchCanBe) {
     Volume volume = post_cloud(64, 20);
     volume.cells.z = 60;
-    EXPECT_NE(error_of([&] { (void)import_volume(volume, small_query(), "v.vdb"); }).second.find("--seam"), std::string::npos);
+    EXPECT_NE(error_of([&] {
+                  (void)import_volume(volume, small_query(), "v.vdb");
+              }).second.find("--seam"),
+              std::string::npos);
     volume.cells.z = 64;
     volume.voxel_m = 100;
-    EXPECT_EQ(error_of([&] { (void)import_volume(volume, small_query(), "v.vdb"); }).first, ExitCode::kBadInput);
+    EXPECT_EQ(error_of([&] { (void)import_volume(volume, small_query(), "v.vdb"); }).first,
+              ExitCode::kBadInput);
     volume.voxel_m = 0.01;
     ImportQuery query = small_query();
     query.size = 2048;
     query.layers = 256;
     query.slices = 256;
-    EXPECT_EQ(error_of([&] { (void)import_volume(volume, query, "v.vdb"); }).first, ExitCode::kOverLimit);
+    EXPECT_EQ(error_of([&] { (void)import_volume(volume, query, "v.vdb"); }).first,
+              ExitCode::kOverLimit);
 }
 
 TEST(Import, AFarOnlySetIsWrittenAndRead) {
     base::set_verbosity(base::Verbosity::kQuiet);
-    const fs::path folder = fs::temp_directory_path() / fmt::format("sward-import-test-{}", ::getpid());
+    const fs::path folder =
+        fs::temp_directory_path() / fmt::format("sward-import-test-{}", ::getpid());
     fs::create_directories(folder);
     const grass::GrassSet& made = own_import();
     Preset preset;

@@ -14,8 +14,8 @@ namespace {
 /// Images of one family as coverage, with the axis across the joint first.
 struct Family {
     const grass::TextureArray& array;
-    int images;                        ///< a variant
-    bool transposed;                   ///< the joint runs along u
+    int images;      ///< a variant
+    bool transposed; ///< the joint runs along u
     int (*index)(int variant, int image, int images);
 };
 
@@ -27,24 +27,30 @@ int slice_of(int variant, int image, int images) {
     return shared::slice_index(variant, image / count, image % count, count, shared::kPlaneId);
 }
 
-/// Sums of the coverage's steps across the joint of variants `left` and `right`, and across each column of the interior.
+/// Sums of the coverage's steps across the joint of variants `left` and `right`, and across each
+/// column of the interior.
 struct Steps {
     double joint = 0;
     std::vector<double> interior;
 
     void add(const Family& family, int image, int left, int right) {
         const grass::TextureArray& a = family.array;
-        const int width = family.transposed ? a.height : a.width, height = family.transposed ? a.width : a.height;
+        const int width = family.transposed ? a.height : a.width,
+                  height = family.transposed ? a.width : a.height;
         const auto coverage = [&](int variant, int u, int v) {
             const int x = family.transposed ? v : u, y = family.transposed ? u : v;
-            const auto at = (static_cast<std::size_t>(family.index(variant, image, family.images)) * static_cast<std::size_t>(a.height) +
-                             static_cast<std::size_t>(y)) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x);
+            const auto at = (static_cast<std::size_t>(family.index(variant, image, family.images)) *
+                                 static_cast<std::size_t>(a.height) +
+                             static_cast<std::size_t>(y)) *
+                                static_cast<std::size_t>(a.width) +
+                            static_cast<std::size_t>(x);
             return static_cast<int>(a.mips[0][4 * at]);
         };
         interior.resize(static_cast<std::size_t>(width) - 1);
         for (int v = 0; v < height; ++v) {
             for (int u = 0; u + 1 < width; ++u)
-                interior[static_cast<std::size_t>(u)] += std::abs(coverage(left, u, v) - coverage(left, u + 1, v));
+                interior[static_cast<std::size_t>(u)] +=
+                    std::abs(coverage(left, u, v) - coverage(left, u + 1, v));
             joint += std::abs(coverage(left, width - 1, v) - coverage(right, 0, v));
         }
     }
@@ -53,9 +59,11 @@ struct Steps {
         std::ranges::nth_element(sorted, sorted.begin() + std::ssize(sorted) / 2);
         return sorted[sorted.size() / 2];
     }
-    /// The interior's own scatter: a column of a sparse image holds few blades. Share of the columns as rough as the joint.
+    /// The interior's own scatter: a column of a sparse image holds few blades. Share of the
+    /// columns as rough as the joint.
     [[nodiscard]] double as_rough() const {
-        return static_cast<double>(std::ranges::count_if(interior, [&](double s) { return s >= joint; })) /
+        return static_cast<double>(
+                   std::ranges::count_if(interior, [&](double s) { return s >= joint; })) /
                static_cast<double>(interior.size());
     }
 };
@@ -69,8 +77,8 @@ Preset dense_meadow(bool wrap) {
     return preset;
 }
 
-/// The roughest joint of any pair over all images of a family, and the images whose own joint is rougher than
-/// 1.2 medians and than all but a hundredth of the interior's columns.
+/// The roughest joint of any pair over all images of a family, and the images whose own joint is
+/// rougher than 1.2 medians and than all but a hundredth of the interior's columns.
 struct Verdict {
     double roughest = 0;
     int images = 0;
@@ -80,9 +88,9 @@ struct Verdict {
 Verdict judge(const grass::GrassSet& set) {
     Verdict verdict;
     for (const grass::FarLevel& level : set.levels)
-        for (const Family& family :
-             {Family{level.layers, level.layer_count, false, layer_of}, Family{level.layers, level.layer_count, true, layer_of},
-              Family{level.slices, 2 * level.slice_count, false, slice_of}})
+        for (const Family& family : {Family{level.layers, level.layer_count, false, layer_of},
+                                     Family{level.layers, level.layer_count, true, layer_of},
+                                     Family{level.slices, 2 * level.slice_count, false, slice_of}})
             for (int left = 0; left < set.variants; ++left)
                 for (int right = 0; right < set.variants; ++right) {
                     Steps all;
@@ -105,7 +113,9 @@ TEST(Joints, OfAnyVariantsAreNoRougherThanTheInterior) {
     base::set_verbosity(base::Verbosity::kQuiet);
     const Verdict good = judge(bake_set(dense_meadow(true), kTexturesAlone));
     EXPECT_LT(good.roughest, 1.2);
-    EXPECT_LT(good.rough_images, 0.04 * good.images); // by chance: a hundredth of the columns, and those of sparse images
+    EXPECT_LT(good.rough_images,
+              0.04 *
+                  good.images); // by chance: a hundredth of the columns, and those of sparse images
 
     const Verdict cut = judge(bake_set(dense_meadow(false), kTexturesAlone));
     EXPECT_GT(cut.roughest, 1.2); // a set with the wrap switched off fails

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The far light table: against rays that know nothing of it, its symmetries, its file, and what the ground makes of it.
+// The far light table: against rays that know nothing of it, its symmetries, its file, and what the
+// ground makes of it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -72,7 +73,8 @@ Seen look_at(const Patch& patch, double canopy, const View& view, const shared::
         std::vector<shared::BladeRecord> bent(rest.begin(), rest.end());
         for (shared::BladeRecord& blade : bent) {
             glm::vec3 v1(blade.v1), v2(blade.v2);
-            shared::pose_blade(v1, v2, {blade.shape.y, static_cast<float>(canopy), view.response, 1}, view.wind);
+            shared::pose_blade(
+                v1, v2, {blade.shape.y, static_cast<float>(canopy), view.response, 1}, view.wind);
             blade.v1 = {v1, blade.v1.w};
             blade.v2 = {v2, blade.v2.w};
         }
@@ -88,7 +90,8 @@ Seen look_at(const Patch& patch, double canopy, const View& view, const shared::
             const shared::GrassPoint point{
                 shared::blade_albedo(look, {a.root.z, a.root.w}, along, 1),
                 shared::blade_tangent(glm::vec3(b.v1), glm::vec3(b.v2), along),
-                shared::blade_curve(glm::vec3(a.v1), glm::vec3(a.v2), along).y / static_cast<float>(canopy),
+                shared::blade_curve(glm::vec3(a.v1), glm::vec3(a.v2), along).y /
+                    static_cast<float>(canopy),
                 light.to_sun.y};
             seen.coverage += 1;
             seen.radiance += shared::shade_grass(look, light, point, to_eye);
@@ -126,25 +129,33 @@ TEST(FarLight, IsWhatIndependentRaysSeeInAWindFromAnywhere) {
         int sun_azimuth;
     };
     double bend_matters = 0;
-    for (const Case& c : {Case{0, 90, 30, 30, 3}, Case{0.3f, 45, 45, 45, 6}, Case{0.6f, 135, 20, 20, 13},
-                          Case{0.9f, 90, 60, 60, 9}, Case{0.3f, 180, 10, 12, 0}, Case{0.6f, 0, 90, 30, 4}}) {
+    for (const Case& c :
+         {Case{0, 90, 30, 30, 3}, Case{0.3f, 45, 45, 45, 6}, Case{0.6f, 135, 20, 20, 13},
+          Case{0.9f, 90, 60, 60, 9}, Case{0.3f, 180, 10, 12, 0}, Case{0.6f, 0, 90, 30, 4}}) {
         const double eye = 70; // nothing in the world lies along an axis
         const double sun_step = 360.0 / table.sun_azimuths;
-        const shared::Light light = light_from(heading(c.sun_elevation, eye + c.sun_azimuth * sun_step));
+        const shared::Light light =
+            light_from(heading(c.sun_elevation, eye + c.sun_azimuth * sun_step));
         const float speed = 5;
         const glm::vec3 toward = speed * heading(0, eye + c.lean_azimuth);
-        const View view{c.elevation, eye, {toward.x, toward.z}, std::sqrt(std::pow(1 - c.lean, -1.5f) - 1) / speed};
+        const View view{c.elevation,
+                        eye,
+                        {toward.x, toward.z},
+                        std::sqrt(std::pow(1 - c.lean, -1.5f) - 1) / speed};
         const Seen seen = look_at(patch, set.canopy_m, view, light);
         const auto sample = [&](std::size_t lean) {
-            return table.samples[table.at(table.image(lean, index_of(table.lean_azimuths_deg, c.lean_azimuth),
-                                                      index_of(table.elevations_deg, c.elevation)),
-                                          index_of(table.sun_elevations_deg, c.sun_elevation),
-                                          static_cast<std::size_t>(c.sun_azimuth))];
+            return table.samples[table.at(
+                table.image(lean, index_of(table.lean_azimuths_deg, c.lean_azimuth),
+                            index_of(table.elevations_deg, c.elevation)),
+                index_of(table.sun_elevations_deg, c.sun_elevation),
+                static_cast<std::size_t>(c.sun_azimuth))];
         };
         const FarSample found = sample(index_of(table.leans, c.lean));
-        EXPECT_LT(worst_ratio(radiance_of(found, light), seen.radiance), 0.04) << c.lean << " " << c.elevation;
+        EXPECT_LT(worst_ratio(radiance_of(found, light), seen.radiance), 0.04)
+            << c.lean << " " << c.elevation;
         EXPECT_NEAR(found.coverage, seen.coverage, 0.02) << c.lean << " " << c.elevation;
-        bend_matters = std::max(bend_matters, worst_ratio(radiance_of(sample(0), light), seen.radiance));
+        bend_matters =
+            std::max(bend_matters, worst_ratio(radiance_of(sample(0), light), seen.radiance));
     }
     EXPECT_GT(bend_matters, 0.05); // a table at rest would not do
 }
@@ -159,15 +170,18 @@ TEST(FarLight, IsEvenWhereTheCanopyIs) {
                 for (std::size_t s = 0; s < t.sun_elevations_deg.size(); ++s)
                     for (std::size_t a = 1; a < count; ++a) {
                         const std::size_t image = t.image(lean, azimuth, e);
-                        const glm::vec3 one = t.samples[t.at(image, s, a)].sun, other = t.samples[t.at(image, s, count - a)].sun;
+                        const glm::vec3 one = t.samples[t.at(image, s, a)].sun,
+                                        other = t.samples[t.at(image, s, count - a)].sun;
                         if (lean == 0) {
                             ASSERT_EQ(one, t.samples[t.at(t.image(0, 0, e), s, a)].sun);
                         }
-                        if (lean == 0 || azimuth == 0 || azimuth + 1 == t.lean_azimuths_deg.size()) {
+                        if (lean == 0 || azimuth == 0 ||
+                            azimuth + 1 == t.lean_azimuths_deg.size()) {
                             ASSERT_LT(glm::distance(one, other), 1e-6f);
                             continue;
                         }
-                        odd = std::max<double>(odd, glm::distance(one, other) / (glm::length(one) + 1e-3f));
+                        odd = std::max<double>(odd, glm::distance(one, other) /
+                                                        (glm::length(one) + 1e-3f));
                     }
     EXPECT_GT(odd, 0.1); // across the wind the sun's side matters
 }
@@ -190,7 +204,9 @@ TEST(FarLight, SkylightDoesNotAskWhereTheSunStands) {
     const shared::GrassPoint point{{0.1f, 0.2f, 0.05f}, heading(60, 20), 0.4f, 0.5f};
     const glm::vec3 one = shared::shade_grass(look, sky, point, heading(40, 100));
     sky.to_sun = heading(15, 200);
-    EXPECT_EQ(one, shared::shade_grass(look, sky, point, heading(40, 100))); // else the table needs a sky for each sun
+    EXPECT_EQ(one,
+              shared::shade_grass(look, sky, point,
+                                  heading(40, 100))); // else the table needs a sky for each sun
 }
 
 TEST(FarLight, IsTheSameAtAnyNumberOfThreads) {
@@ -199,9 +215,11 @@ TEST(FarLight, IsTheSameAtAnyNumberOfThreads) {
     preset.variants = 2;
     const Patch patch = generate_patch(preset, 1);
     const double top = canopy_height(patch);
-    const FarTable one = far_table(blade_canopy(patch, top), 4096, 1), three = far_table(blade_canopy(patch, top), 4096, 3);
+    const FarTable one = far_table(blade_canopy(patch, top), 4096, 1),
+                   three = far_table(blade_canopy(patch, top), 4096, 3);
     ASSERT_EQ(one.light.samples.size(), three.light.samples.size());
-    EXPECT_EQ(0, std::memcmp(one.light.samples.data(), three.light.samples.data(), one.light.samples.size() * sizeof(FarSample)));
+    EXPECT_EQ(0, std::memcmp(one.light.samples.data(), three.light.samples.data(),
+                             one.light.samples.size() * sizeof(FarSample)));
     for (std::size_t e = 0; e < one.rows.size(); ++e)
         EXPECT_EQ(one.rows[e].height, three.rows[e].height);
 }
@@ -211,7 +229,8 @@ TEST(FarLight, RoundTripsThroughItsFileAndRefusesNonsense) {
     const grass::TextureArray array = grass::encode_far_light(light);
     const auto decoded = [&](const grass::TextureArray& texture, FarLight axes) {
         axes.samples.clear();
-        grass::decode_far_light(grass::decode_ktx2(grass::encode_ktx2(texture, 3), "far.ktx2"), "far.ktx2", axes);
+        grass::decode_far_light(grass::decode_ktx2(grass::encode_ktx2(texture, 3), "far.ktx2"),
+                                "far.ktx2", axes);
         return axes.samples;
     };
     const std::vector<FarSample> back = decoded(array, light);
@@ -236,7 +255,8 @@ TEST(FarLight, RoundTripsThroughItsFileAndRefusesNonsense) {
 TEST(FarLight, ASetCarriesItAndIsRefusedWithoutIt) {
     const fs::path directory = fs::path(testing::TempDir()) / "far_light_set";
     fs::remove_all(directory);
-    write_set(small_set(), small_meadow(), directory, {.threads = 2, .volume = false, .preview = false});
+    write_set(small_set(), small_meadow(), directory,
+              {.threads = 2, .volume = false, .preview = false});
     const grass::GrassSet read = grass::read_grass_set(directory);
     const FarLight &written = small_set().far_light, &found = read.far_light;
     EXPECT_EQ(found.leans, written.leans);
@@ -244,7 +264,8 @@ TEST(FarLight, ASetCarriesItAndIsRefusedWithoutIt) {
     EXPECT_EQ(found.sun_elevations_deg, written.sun_elevations_deg);
     EXPECT_EQ(found.sun_azimuths, written.sun_azimuths);
     ASSERT_EQ(found.samples.size(), written.samples.size());
-    EXPECT_EQ(0, std::memcmp(found.samples.data(), written.samples.data(), found.samples.size() * sizeof(FarSample)));
+    EXPECT_EQ(0, std::memcmp(found.samples.data(), written.samples.data(),
+                             found.samples.size() * sizeof(FarSample)));
     EXPECT_TRUE(fs::exists(directory / grass::kFarLightPicture));
 
     const std::string json = base::read_text(directory / grass::kSetJson, 1 << 20);
@@ -257,12 +278,15 @@ TEST(FarLight, ASetCarriesItAndIsRefusedWithoutIt) {
         return error_of([&] { (void)grass::read_grass_set(directory); });
     };
     EXPECT_NE(refused("\"far_light\"", "\"far_lite\"").second.find("far_light"), std::string::npos);
-    EXPECT_NE(refused("\"sun_azimuths\": 16", "\"sun_azimuths\": 8").second.find("far.ktx2"), std::string::npos);
-    EXPECT_NE(refused("\"sun_azimuths\": 16", "\"sun_azimuths\": 1e9").second.find("sun_azimuths"), std::string::npos);
+    EXPECT_NE(refused("\"sun_azimuths\": 16", "\"sun_azimuths\": 8").second.find("far.ktx2"),
+              std::string::npos);
+    EXPECT_NE(refused("\"sun_azimuths\": 16", "\"sun_azimuths\": 1e9").second.find("sun_azimuths"),
+              std::string::npos);
     EXPECT_NE(refused("-5.0,", "-91,").second.find("sun_elevations_deg"), std::string::npos);
     fs::remove(directory / grass::kFarLightFile);
     base::write_file_atomic(directory / grass::kSetJson, json);
-    EXPECT_NE(error_of([&] { (void)grass::read_grass_set(directory); }).second.find("far.ktx2"), std::string::npos);
+    EXPECT_NE(error_of([&] { (void)grass::read_grass_set(directory); }).second.find("far.ktx2"),
+              std::string::npos);
     fs::remove_all(directory);
 }
 
@@ -278,29 +302,35 @@ Texel texel_at(const std::vector<glm::vec4>& table, int row, int column) {
     return {table[at], table[at + table.size() / 2]};
 }
 
-// Between the table's nodes, with its own noise: 2 % in the mean; 5 % at the worst, a view from 9 degrees in a weak wind.
+// Between the table's nodes, with its own noise: 2 % in the mean; 5 % at the worst, a view from 9
+// degrees in a weak wind.
 TEST(FarAppearance, IsDirectLightOnBladesWithinThreePercentInTheMean) {
     using Far = shells::FarAppearance;
     const grass::GrassSet& set = small_set();
     const Patch patch = small_patch();
     double largest = 0, sum = 0;
     int count = 0;
-    for (const auto& [wind, sun_elevation] : {std::pair{glm::vec2(2.5f, -3.0f), 37.0}, {glm::vec2(-7, 4), 52.0}, {glm::vec2(0), 16.0}}) {
+    for (const auto& [wind, sun_elevation] : {std::pair{glm::vec2(2.5f, -3.0f), 37.0},
+                                              {glm::vec2(-7, 4), 52.0},
+                                              {glm::vec2(0), 16.0}}) {
         const double sun_azimuth = 115;
         const shared::Light light = light_from(heading(sun_elevation, sun_azimuth));
-        const std::vector<glm::vec4> table = shells::canopy_table(set.far_light, light, {wind, 0, 0.1f});
+        const std::vector<glm::vec4> table =
+            shells::canopy_table(set.far_light, light, {wind, 0, 0.1f});
         ASSERT_EQ(table.size(), 2u * Far::kAzimuths * Far::kElevations);
         for (const auto& [row, column] : {std::pair{5, 3}, {9, 20}, {14, 11}, {19, 30}}) {
             const double elevation = std::asin(row / (Far::kElevations - 1.0)) / kDegree;
             const View view{elevation, sun_azimuth - 360.0 * column / Far::kAzimuths, wind, 0.1f};
             const Seen seen = look_at(patch, set.canopy_m, view, light);
             const Texel texel = texel_at(table, row, column);
-            const double error = worst_ratio(glm::dvec3(texel.sun) + glm::dvec3(texel.sky), seen.radiance);
+            const double error =
+                worst_ratio(glm::dvec3(texel.sun) + glm::dvec3(texel.sky), seen.radiance);
             largest = std::max(largest, error);
             sum += error;
             ++count;
             EXPECT_LT(error, 0.06) << "wind " << wind.x << " row " << row << " column " << column;
-            EXPECT_NEAR(texel.sun.a, seen.coverage, 0.03) << "wind " << wind.x << " row " << row << " column " << column;
+            EXPECT_NEAR(texel.sun.a, seen.coverage, 0.03)
+                << "wind " << wind.x << " row " << row << " column " << column;
         }
     }
     EXPECT_LT(sum / count, 0.03);
@@ -318,7 +348,8 @@ TEST(FarAppearance, IsLinearInTheColoursOfSunAndSky) {
     light.horizon *= 3;
     const std::vector<glm::vec4> other = shells::canopy_table(table, light, wind);
     for (std::size_t i = 0; i < one.size(); ++i) {
-        const glm::vec4 factor = i < one.size() / 2 ? glm::vec4(2, 0, 0.5f, 1) : glm::vec4(3, 3, 3, 1);
+        const glm::vec4 factor =
+            i < one.size() / 2 ? glm::vec4(2, 0, 0.5f, 1) : glm::vec4(3, 3, 3, 1);
         for (int c = 0; c < 4; ++c)
             ASSERT_NEAR(other[i][c], factor[c] * one[i][c], 1e-5f * one[i][c]) << i;
     }
@@ -328,10 +359,12 @@ TEST(FarAppearance, IsDarkWithoutASunAndUsableForEveryWind) {
     const FarLight& table = small_set().far_light;
     for (const float speed : {0.0f, 1.0f, 8.0f, 200.0f})
         for (const double elevation : {-30.0, -4.0, 0.5, 25.0, 90.0}) {
-            const auto texels = shells::canopy_table(table, light_from(heading(elevation, 10)), {speed, -speed, 0, 0.1f});
+            const auto texels = shells::canopy_table(table, light_from(heading(elevation, 10)),
+                                                     {speed, -speed, 0, 0.1f});
             for (std::size_t i = 0; i < texels.size(); ++i)
                 for (int c = 0; c < 4; ++c) {
-                    ASSERT_TRUE(std::isfinite(texels[i][c]) && texels[i][c] >= 0) << speed << " " << elevation;
+                    ASSERT_TRUE(std::isfinite(texels[i][c]) && texels[i][c] >= 0)
+                        << speed << " " << elevation;
                     if (elevation == -30 && i < texels.size() / 2 && c < 3) {
                         ASSERT_EQ(texels[i][c], 0);
                     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The march on the CPU, by the very functions that the shaders call: its path, its mean depth, its correction, its light, what slopes do to it.
+// The march on the CPU, by the very functions that the shaders call: its path, its mean depth, its
+// correction, its light, what slopes do to it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,7 +46,9 @@ TEST(March, RestHeightsUndoTheBend) {
         const shared::MarchPath path = path_down(medium, 30, bend);
         for (int i = 0; i <= 20; ++i) {
             const float y = medium.canopy_m * static_cast<float>(i) / 20;
-            EXPECT_NEAR(shared::march_rest_height(path, shared::march_bent_height(path, y)), y, 1e-4f * medium.canopy_m) << bend;
+            EXPECT_NEAR(shared::march_rest_height(path, shared::march_bent_height(path, y)), y,
+                        1e-4f * medium.canopy_m)
+                << bend;
         }
     }
 }
@@ -59,7 +62,9 @@ TEST(March, DepthIsTheSumOfItsPartsHoweverItIsCut) {
         shared::MarchWalk walk = shared::march_begin(path);
         float sum = 0;
         for (int i = 1; i <= 37; ++i)
-            sum += shared::march_advance(medium, path, walk, {path.height.w * static_cast<float>(i) / 37 + (i == 37 ? 1.0f : 0.0f), 1e9f, 1});
+            sum += shared::march_advance(
+                medium, path, walk,
+                {path.height.w * static_cast<float>(i) / 37 + (i == 37 ? 1.0f : 0.0f), 1e9f, 1});
         EXPECT_NEAR(sum, depth, 1e-3f * depth) << elevation;
         EXPECT_FALSE(shared::march_inside(path, walk));
     }
@@ -77,18 +82,22 @@ TEST(March, ColumnsStepsSeeWhatTheMeanFieldSees) {
         float sum = 0;
         int steps = 0;
         for (; steps < shared::kMarchSteps && shared::march_inside(path, walk); ++steps)
-            sum += shared::march_column(medium, path, plan, walk, {static_cast<float>(steps), 1}).depth;
+            sum += shared::march_column(medium, path, plan, walk, {static_cast<float>(steps), 1})
+                       .depth;
         EXPECT_NEAR(1 - std::exp(-sum), 1 - std::exp(-depth), 0.01f) << elevation;
-        EXPECT_LE(steps, plan.steps + shared::kMarchLayers) << elevation; // each ends at an equal part, or where its layer does
+        EXPECT_LE(steps, plan.steps + shared::kMarchLayers)
+            << elevation; // each ends at an equal part, or where its layer does
     }
 }
 
 TEST(March, LightOfTheCoarsestColumnsIsTheMeasure) {
     const std::vector<float>& table = small_set().march.correction;
     ASSERT_EQ(table.size(), grass::kMarchCorrections);
-    const std::size_t row = (shared::kMarchColumns * shared::kMarchMips + shared::kMarchMips - 1) * shared::kMarchElevations;
+    const std::size_t row = (shared::kMarchColumns * shared::kMarchMips + shared::kMarchMips - 1) *
+                            shared::kMarchElevations;
     for (std::size_t e = 0; e < shared::kMarchElevations; ++e) {
-        EXPECT_NEAR(table[(row + e) * grass::kMarchFactors + 1], 1, 0.03f) << e; // at mip 9.5, past the last that was fitted
+        EXPECT_NEAR(table[(row + e) * grass::kMarchFactors + 1], 1, 0.03f)
+            << e; // at mip 9.5, past the last that was fitted
         EXPECT_NEAR(table[(row + e) * grass::kMarchFactors + 3], 1, 0.03f) << e;
     }
     for (const float factor : table)
@@ -99,19 +108,25 @@ TEST(March, FactorsMakeItAsBrightAsRaysThroughTheBlades) {
     const grass::GrassSet& set = small_set();
     const shells::MeanMarch mean(set);
     const shared::Light light = light_from(35, 70);
-    constexpr int kAzimuths = shells::MarchLight::kAzimuths, kRows = shells::MarchLight::kElevations;
+    constexpr int kAzimuths = shells::MarchLight::kAzimuths,
+                  kRows = shells::MarchLight::kElevations;
     for (const glm::vec4& wind : {glm::vec4(0, 0, 0, 0.02f), glm::vec4(5, -3, 0, 0.02f)}) {
         const std::vector<float> factors = shells::light_factors(mean, set.far_light, light, wind);
         const std::vector<glm::vec4> truth = shells::canopy_table(set.far_light, light, wind);
         ASSERT_EQ(factors.size(), static_cast<std::size_t>(kAzimuths * kRows));
         float most = 0;
         for (std::size_t i = 0; i < factors.size(); ++i) {
-            const float sine = std::max(static_cast<float>(i / kAzimuths) / (kRows - 1), 0.02f), flat = std::sqrt(std::max(1 - sine * sine, 0.0f));
-            const float heading = 70 * kDegree - 2 * shared::kPi * static_cast<float>(i % kAzimuths) / kAzimuths;
-            const glm::vec3 marched = mean.radiance(light, wind, {flat * std::cos(heading), sine, flat * std::sin(heading)});
+            const float sine = std::max(static_cast<float>(i / kAzimuths) / (kRows - 1), 0.02f),
+                        flat = std::sqrt(std::max(1 - sine * sine, 0.0f));
+            const float heading =
+                70 * kDegree - 2 * shared::kPi * static_cast<float>(i % kAzimuths) / kAzimuths;
+            const glm::vec3 marched = mean.radiance(
+                light, wind, {flat * std::cos(heading), sine, flat * std::sin(heading)});
             const glm::vec3 wanted = glm::vec3(truth[i]) + glm::vec3(truth[i + factors.size()]);
             const glm::vec3 luminance(0.2126f, 0.7152f, 0.0722f);
-            EXPECT_NEAR(factors[i] * glm::dot(marched, luminance), glm::dot(wanted, luminance), 0.01f * glm::dot(wanted, luminance)) << i;
+            EXPECT_NEAR(factors[i] * glm::dot(marched, luminance), glm::dot(wanted, luminance),
+                        0.01f * glm::dot(wanted, luminance))
+                << i;
             most = std::max(most, std::abs(factors[i] - 1));
         }
         EXPECT_LT(most, 0.4f); // repairs a closure, not a fault
@@ -140,7 +155,8 @@ TEST(March, GroundThatRisesChangesTheLight) {
         shared::march_stand(medium, sums, light, {5, rise, 0.8f}, to_eye);
         return shared::march_radiance(medium, light, sums, to_eye).y;
     };
-    EXPECT_LT(radiance(0.5f), 0.97f * radiance(0)); // blades lean toward the sun too, and take less of its light
+    EXPECT_LT(radiance(0.5f),
+              0.97f * radiance(0)); // blades lean toward the sun too, and take less of its light
     EXPECT_GT(radiance(-0.5f), radiance(0.5f));
 }
 

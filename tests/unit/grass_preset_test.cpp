@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// [[species]] in presets, and the shipped presets: that each is read, grows what it asks for and is calibrated.
+// [[species]] in presets, and the shipped presets: that each is read, grows what it asks for and is
+// calibrated.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -47,7 +48,8 @@ element = "seed_head"
 width_m = [0.002, 0.003]
 [species.head]
 stalk = 0.5
-)", "p.toml");
+)",
+                                       "p.toml");
     ASSERT_EQ(preset.species.size(), 2u);
     const Species &plain = preset.species[0], &ear = preset.species[1];
     EXPECT_EQ(plain.name, "species0");
@@ -67,7 +69,8 @@ stalk = 0.5
 }
 
 TEST(Species, ElementCountsWhereverItStands) {
-    const char* before = "[[species]]\nelement = \"flower\"\nshare = 2\n[species.head]\nfrom = 0.6\n";
+    const char* before =
+        "[[species]]\nelement = \"flower\"\nshare = 2\n[species.head]\nfrom = 0.6\n";
     const char* after = "[[species]]\nhead = { from = 0.6 }\nshare = 2\nelement = \"flower\"\n";
     for (const char* text : {before, after}) {
         const Species flower = parse_preset(text, "p.toml").species.front();
@@ -93,12 +96,14 @@ TEST(Species, RefusesNonsenseWithKeyValueAndRange) {
         {"[[species]]\nelement = 1\n", {"species.element", "1"}},
         {"[[species]]\nshare = 0\n", {"p.toml:2", "share", "0", "1e-06"}},
         {"[[species]]\nshare = nan\n", {"share", "nan"}},
-        {"[[species]]\nname = \"a\"\n[[species]]\nname = \"a\"\n", {"species.name", "a second time"}},
+        {"[[species]]\nname = \"a\"\n[[species]]\nname = \"a\"\n",
+         {"species.name", "a second time"}},
         {"[[species]]\n[species.patch]\nside_m = 1\n", {"p.toml:2", "patch"}},
         {"[[species]]\n[species.blade]\nwidth = [1, 2]\n", {"p.toml:3", "width", "width_m"}},
         {"element = \"leaf\"\n", {"p.toml:1", "element"}},
         {"[[species]]\n[species.head]\nfrom = 0\n", {"p.toml:3", "head.from", "0.05 to 1"}},
-        {"[[species]]\nname = \"tall\"\n[species.blade]\nlean_deg = [0, 80]\ncurvature_deg = [0, 100]\n",
+        {"[[species]]\nname = \"tall\"\n[species.blade]\nlean_deg = [0, 80]\ncurvature_deg = [0, "
+         "100]\n",
          {"blade.curvature_deg", "tall", "150"}},
     };
     for (const Case& c : cases) {
@@ -106,7 +111,8 @@ TEST(Species, RefusesNonsenseWithKeyValueAndRange) {
         EXPECT_EQ(code, ExitCode::kBadInput) << c.text << text;
         EXPECT_EQ(text.find('\n'), std::string::npos) << text;
         for (const std::string& part : c.says)
-            EXPECT_NE(text.find(part), std::string::npos) << c.text << "'" << part << "' not in: " << text;
+            EXPECT_NE(text.find(part), std::string::npos)
+                << c.text << "'" << part << "' not in: " << text;
     }
     // The parser would descend a level a dot, to the end of its stack.
     const auto [code, text] = error_of([] {
@@ -121,8 +127,10 @@ TEST(Species, RefusesNonsenseWithKeyValueAndRange) {
 
 /// Angle of the root's tangent from the vertical, degrees.
 double lean_of(const BladeRecord& blade) {
-    const shared::vec3 tangent = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), 0);
-    return std::acos(std::clamp(static_cast<double>(tangent.y), -1.0, 1.0)) * 180 / std::numbers::pi;
+    const shared::vec3 tangent =
+        shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), 0);
+    return std::acos(std::clamp(static_cast<double>(tangent.y), -1.0, 1.0)) * 180 /
+           std::numbers::pi;
 }
 
 void expect_in(double value, const Range& range, const std::string& what) {
@@ -131,7 +139,8 @@ void expect_in(double value, const Range& range, const std::string& what) {
     EXPECT_LE(value, range.high + slack) << what;
 }
 
-/// Half widths along the outline: the blade's taper, or a stalk with a head on it that ends in a point.
+/// Half widths along the outline: the blade's taper, or a stalk with a head on it that ends in a
+/// point.
 void expect_outline(const BladeRecord& blade, const Species& species, const Patch& patch) {
     const Outline outline = outline_of(blade, patch.looks);
     double widest = 0, widest_at = 0;
@@ -171,13 +180,16 @@ TEST_P(ShippedPreset, GrowsTheSpeciesItAsksFor) {
                 expect_outline(blades[i], one, patch);
             expect_in(blades[i].shape.y, one.length_m, one.name + " length");
             expect_in(2 * blades[i].v1.w, one.width_m, one.name + " width");
-            expect_in(lean_of(blades[i]), {one.lean_deg.low - 0.2, one.lean_deg.high + 0.2}, one.name + " lean");
+            expect_in(lean_of(blades[i]), {one.lean_deg.low - 0.2, one.lean_deg.high + 0.2},
+                      one.name + " lean");
             expect_in(blades[i].v2.w, one.stiffness, one.name + " stiffness");
         }
         const double asked = preset.density_per_m2 * preset.side_m * preset.side_m;
         EXPECT_NEAR(static_cast<double>(blades.size()), asked, 0.5);
         for (std::size_t s = 0; s < count.size(); ++s)
-            EXPECT_NEAR(static_cast<double>(count[s]), asked * preset.species[s].share / shares, 1.0) << preset.species[s].name;
+            EXPECT_NEAR(static_cast<double>(count[s]), asked * preset.species[s].share / shares,
+                        1.0)
+                << preset.species[s].name;
     }
 }
 
@@ -195,10 +207,14 @@ TEST_P(ShippedPreset, IsCalibratedWithinThreePoints) {
             continue;
         ++rows;
         const FlatUse use{row.share_at(0), row.slice_share};
-        EXPECT_NEAR(flat_coverage(set, 0, row.elevation_deg, use, 4096).coverage, row.coverage, 0.03) << row.elevation_deg;
-        // Shells and slices whole cover too much: there is something to calibrate, where there is room for it (reeds: 0.98).
+        EXPECT_NEAR(flat_coverage(set, 0, row.elevation_deg, use, 4096).coverage, row.coverage,
+                    0.03)
+            << row.elevation_deg;
+        // Shells and slices whole cover too much: there is something to calibrate, where there is
+        // room for it (reeds: 0.98).
         if (row.elevation_deg == 45 && row.coverage < 0.95f) {
-            EXPECT_GT(flat_coverage(set, 0, 45, {1, row.slice_share}, 4096).coverage, row.coverage + 0.03);
+            EXPECT_GT(flat_coverage(set, 0, 45, {1, row.slice_share}, 4096).coverage,
+                      row.coverage + 0.03);
         }
     }
     EXPECT_EQ(rows, 8);

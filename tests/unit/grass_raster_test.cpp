@@ -109,8 +109,8 @@ TEST(Raster, ATexelNamesABladeThatStandsWhereItSays) {
             EXPECT_GT(glm::dot(decoded, t.y < 0 ? -t : t), 0.98f);
             // The named point of the blade lies within the texel, give or take the blade's width
             // and the coding.
-            const shared::vec3 p =
-                shared::blade_curve(shared::vec3(blade.v1), shared::vec3(blade.v2), shared::decode_along(id[3]));
+            const shared::vec3 p = shared::blade_curve(
+                shared::vec3(blade.v1), shared::vec3(blade.v2), shared::decode_along(id[3]));
             if (at.y > 0) { // slice: compare heights
                 EXPECT_NEAR(p.y, at.y, texel * 1.5 + 0.004);
             }
@@ -171,21 +171,25 @@ TEST(Raster, MipsKeepTheMeanCoverage) {
 }
 
 TEST(Raster, MipsKeepWhatAnAlphaTestSees) {
-    // Texels at least half covered, over all images: as many at every mip as at mip 0 (B5). Averaged coverage would
-    // fail: thin blades fall below a half at the first mip.
+    // Texels at least half covered, over all images: as many at every mip as at mip 0 (B5).
+    // Averaged coverage would fail: thin blades fall below a half at the first mip.
     for (const grass::FarLevel& level : small_set().levels)
         for (const grass::TextureArray* array : {&level.layers, &level.slices}) {
             const auto passing = [&](std::size_t m) {
                 double passes = 0, texels = 0;
-                const std::size_t plane = array->mips[m].size() / static_cast<std::size_t>(array->layers);
-                for (std::size_t image = 0; image < static_cast<std::size_t>(array->layers); image += shared::kPlanes)
+                const std::size_t plane =
+                    array->mips[m].size() / static_cast<std::size_t>(array->layers);
+                for (std::size_t image = 0; image < static_cast<std::size_t>(array->layers);
+                     image += shared::kPlanes)
                     for (std::size_t t = 0; t < plane; t += 4, ++texels)
                         passes += array->mips[m][image * plane + t] >= 128 ? 1 : 0;
                 return passes / texels;
             };
             for (std::size_t m = 1; m < array->mips.size() && (array->width >> m) >= 8; ++m)
                 // A count of texels is whole in each image.
-                EXPECT_NEAR(passing(m), passing(0), 0.02 * passing(0) + 0.5 * 4 * array->layers / static_cast<double>(array->mips[m].size()))
+                EXPECT_NEAR(passing(m), passing(0),
+                            0.02 * passing(0) + 0.5 * 4 * array->layers /
+                                                    static_cast<double>(array->mips[m].size()))
                     << array->width << " mip " << m;
         }
 }
@@ -198,7 +202,8 @@ TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
         preset.levels = 1;
         preset.far_rays = 8192;
         base::set_verbosity(base::Verbosity::kQuiet);
-        const grass::GrassSet set = bake_set(preset, {.threads = 2, .volume = false, .preview = false});
+        const grass::GrassSet set =
+            bake_set(preset, {.threads = 2, .volume = false, .preview = false});
         const grass::FarLevel& level = set.levels[0];
         ASSERT_EQ(level.layers.layers, shared::kPlanes); // one image
         const grass::FarRow& nadir = set.far.front();
@@ -206,7 +211,8 @@ TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
         for (std::size_t t = 0; t < level.layers.mips[0].size() / 2; t += 4)
             if (level.layers.mips[0][t] > 0) {
                 shown += 1;
-                height += shared::decode_height(static_cast<float>(level.layers.mips[0][t]) / 255.0f, set.height_coding);
+                height += shared::decode_height(
+                    static_cast<float>(level.layers.mips[0][t]) / 255.0f, set.height_coding);
             }
         EXPECT_NEAR(shown / (256 * 256), nadir.coverage, 0.03) << coding;
         EXPECT_NEAR(height / shown, nadir.height, 0.03) << coding;
@@ -214,7 +220,8 @@ TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
     for (const int coding : {shared::kHeightLinear, shared::kHeightTop})
         for (const float h : {0.0f, 0.3f, 0.9f, 1.0f})
             EXPECT_NEAR(shared::decode_height(shared::encode_height(h, coding), coding), h, 1e-6f);
-    // Near the top, where shells are seen, a step of the top-weighted code is finer than a linear one.
+    // Near the top, where shells are seen, a step of the top-weighted code is finer than a linear
+    // one.
     EXPECT_LT(1 - shared::decode_height(254.0f / 255, shared::kHeightTop), 0.1f / 255);
 }
 

@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 using assets::LayerImage;
 using base::ExitCode;
 
-/// Strokes that cross all layers and are cut at the border: a stack that someone rendered without a torus. RGBA, 8 bits.
+/// Strokes that cross all layers and are cut at the border: a stack that someone rendered without a
+/// torus. RGBA, 8 bits.
 LayerStack stroke_stack(int side, int layers, int strokes) {
     LayerStack stack;
     for (int i = 0; i < layers; ++i) {
@@ -35,17 +36,23 @@ LayerStack stroke_stack(int side, int layers, int strokes) {
         stack.files.emplace_back(fmt::format("layer{}.png", i));
     }
     for (int s = 0; s < strokes; ++s) {
-        const auto random = [&](std::uint64_t n) { return base::hash_unit(3, n, static_cast<std::uint64_t>(s)); };
-        const double x = random(0) * side, z = random(1) * side, turn = random(2) * 6.2832, lean = 0.2 + random(3);
+        const auto random = [&](std::uint64_t n) {
+            return base::hash_unit(3, n, static_cast<std::uint64_t>(s));
+        };
+        const double x = random(0) * side, z = random(1) * side, turn = random(2) * 6.2832,
+                     lean = 0.2 + random(3);
         for (int i = 0; i < layers; ++i)
             for (double t = 0; t < 9; t += 0.2)
                 for (double w = -1; w <= 1; w += 0.5) {
                     const double out = (i * 9 + t) * lean;
-                    const int u = static_cast<int>(std::floor(x + out * std::cos(turn) - w * std::sin(turn)));
-                    const int v = static_cast<int>(std::floor(z + out * std::sin(turn) + w * std::cos(turn)));
+                    const int u =
+                        static_cast<int>(std::floor(x + out * std::cos(turn) - w * std::sin(turn)));
+                    const int v =
+                        static_cast<int>(std::floor(z + out * std::sin(turn) + w * std::cos(turn)));
                     if (u < 0 || v < 0 || u >= side || v >= side)
                         continue;
-                    float* p = &stack.images[static_cast<std::size_t>(i)].values[static_cast<std::size_t>((v * side + u) * 4)];
+                    float* p = &stack.images[static_cast<std::size_t>(i)]
+                                    .values[static_cast<std::size_t>((v * side + u) * 4)];
                     p[0] = 60 + static_cast<float>(s % 60);
                     p[1] = 120 + static_cast<float>(s % 90);
                     p[2] = 40;
@@ -86,9 +93,12 @@ LayerStack plain_g2(const LayerStack& stack, int cut) {
         for (int v = 0; v < from.height; ++v)
             for (int u = 0; u < image.width; ++u)
                 for (int c = 0; c < 4; ++c) {
-                    const auto at = [&](int x, int k) { return from.values[static_cast<std::size_t>((v * from.width + x) * 4 + k)]; };
+                    const auto at = [&](int x, int k) {
+                        return from.values[static_cast<std::size_t>((v * from.width + x) * 4 + k)];
+                    };
                     const bool over = u < cut && at(u + image.width, 3) >= at(u, 3);
-                    image.values[static_cast<std::size_t>((v * image.width + u) * 4 + c)] = at(over ? u + image.width : u, c);
+                    image.values[static_cast<std::size_t>((v * image.width + u) * 4 + c)] =
+                        at(over ? u + image.width : u, c);
                 }
     }
     return out;
@@ -105,7 +115,8 @@ TEST(Seam, LowersTheJointToTheInterior) {
     const double median = median_gradient(done);
     double mean = 0;
     for (int u = 0; u <= 33; ++u) {
-        EXPECT_LE(column_gradient(done, u), 1.6 * median) << u; // single columns of the source go as high
+        EXPECT_LE(column_gradient(done, u), 1.6 * median)
+            << u; // single columns of the source go as high
         mean += column_gradient(done, u) / 34;
     }
     EXPECT_LE(mean, kMostJointRatio * median);
@@ -126,10 +137,15 @@ TEST(Seam, ATexelStaysWhole) {
                 bool known = false;
                 for (const int x : {u, u + 84})
                     for (const int y : {v, v + 84})
-                        known |= x < 96 && y < 96 && std::equal(texel(done.images[l], u, v), texel(done.images[l], u, v) + 4, texel(stack.images[l], x, y));
+                        known |=
+                            x < 96 && y < 96 &&
+                            std::equal(texel(done.images[l], u, v), texel(done.images[l], u, v) + 4,
+                                       texel(stack.images[l], x, y));
                 ASSERT_TRUE(known) << u << " " << v;
                 if (u >= 12 && v >= 12) {
-                    ASSERT_TRUE(std::equal(texel(done.images[l], u, v), texel(done.images[l], u, v) + 4, texel(stack.images[l], u, v)));
+                    ASSERT_TRUE(std::equal(texel(done.images[l], u, v),
+                                           texel(done.images[l], u, v) + 4,
+                                           texel(stack.images[l], u, v)));
                 }
             }
 }
@@ -161,7 +177,8 @@ TEST(Seam, TheBoundariesTakeTheFreeWayAndClose) {
 
 TEST(Seam, RefusesCutsThatLeaveTooLittle) {
     const LayerStack stack = stroke_stack(32, 1, 5);
-    for (const SeamCut cut : {SeamCut{.share = 0.5}, SeamCut{.texels = 2}, SeamCut{.texels = 31}, SeamCut{.share = 0.01}})
+    for (const SeamCut cut : {SeamCut{.share = 0.5}, SeamCut{.texels = 2}, SeamCut{.texels = 31},
+                              SeamCut{.share = 0.01}})
         EXPECT_EQ(error_of([&] { (void)seam_stack(stack, cut); }).first, ExitCode::kUsage);
 }
 
@@ -169,8 +186,11 @@ TEST(Seam, RefusesCutsThatLeaveTooLittle) {
 Volume strand_volume(int side, int height, int strands) {
     std::map<std::tuple<int, int, int>, float> cells;
     for (int s = 0; s < strands; ++s) {
-        const auto random = [&](std::uint64_t n) { return base::hash_unit(5, n, static_cast<std::uint64_t>(s)); };
-        const double x = random(0) * side, z = random(1) * side, turn = random(2) * 6.2832, lean = random(3);
+        const auto random = [&](std::uint64_t n) {
+            return base::hash_unit(5, n, static_cast<std::uint64_t>(s));
+        };
+        const double x = random(0) * side, z = random(1) * side, turn = random(2) * 6.2832,
+                     lean = random(3);
         for (int y = 0; y < height; ++y) {
             const int u = static_cast<int>(std::floor(x + y * lean * std::cos(turn)));
             const int v = static_cast<int>(std::floor(z + y * lean * std::sin(turn)));
@@ -183,7 +203,8 @@ Volume strand_volume(int side, int height, int strands) {
     volume.cells = {side, height, side};
     for (const auto& [at, density] : cells) {
         const auto [y, z, x] = at;
-        volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y), static_cast<std::uint16_t>(z)});
+        volume.at.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y),
+                             static_cast<std::uint16_t>(z)});
         volume.density.push_back(density);
         volume.colour.push_back({density, 0.1f, static_cast<float>(x) / 512});
     }
@@ -207,7 +228,8 @@ TEST(Seam, AVolumeBecomesPeriodicAndKeepsItsVoxelsTogether) {
     for (std::size_t i = 0; i < done.at.size(); ++i)
         ASSERT_EQ(done.colour[i].x, done.density[i]); // a voxel's companions came with it
     for (std::size_t i = 1; i < done.at.size(); ++i)
-        ASSERT_TRUE(std::tie(done.at[i - 1].y, done.at[i - 1].z, done.at[i - 1].x) < std::tie(done.at[i].y, done.at[i].z, done.at[i].x));
+        ASSERT_TRUE(std::tie(done.at[i - 1].y, done.at[i - 1].z, done.at[i - 1].x) <
+                    std::tie(done.at[i].y, done.at[i].z, done.at[i].x));
 }
 
 TEST(Seam, AVdbFileKeepsItsGridsAndGetsItsPeriod) {
@@ -229,7 +251,10 @@ TEST(Seam, AVdbFileKeepsItsGridsAndGetsItsPeriod) {
 
 class StackFiles : public ::testing::Test {
 protected:
-    StackFiles() : folder_(fs::temp_directory_path() / fmt::format("sward-stack-test-{}", ::getpid())) { fs::create_directories(folder_); }
+    StackFiles()
+        : folder_(fs::temp_directory_path() / fmt::format("sward-stack-test-{}", ::getpid())) {
+        fs::create_directories(folder_);
+    }
     ~StackFiles() override { fs::remove_all(folder_); }
     void write(const LayerImage& image, const std::string& name) {
         base::write_file_atomic(folder_ / name, assets::encode_layer_image(image, name));
@@ -240,14 +265,21 @@ protected:
 TEST_F(StackFiles, EveryKindOfPictureComesBackAsItWas) {
     using Type = LayerImage::Type;
     using assets::Format;
-    for (const auto& [format, type] : {std::pair{Format::kPng, Type::kUint8}, {Format::kPng, Type::kUint16}, {Format::kTiff, Type::kUint8},
-                                       {Format::kTiff, Type::kUint16}, {Format::kTiff, Type::kFloat}, {Format::kExr, Type::kHalf}, {Format::kExr, Type::kFloat}})
+    for (const auto& [format, type] : {std::pair{Format::kPng, Type::kUint8},
+                                       {Format::kPng, Type::kUint16},
+                                       {Format::kTiff, Type::kUint8},
+                                       {Format::kTiff, Type::kUint16},
+                                       {Format::kTiff, Type::kFloat},
+                                       {Format::kExr, Type::kHalf},
+                                       {Format::kExr, Type::kFloat}})
         for (int channels = 1; channels <= 4; ++channels) {
             LayerImage image{7, 5, channels, type, format, {}, {}};
             if (format == Format::kExr)
                 image.names = std::vector<std::string>{"R", "G", "B", "A"};
             image.names.resize(format == Format::kExr ? static_cast<std::size_t>(channels) : 0);
-            const float scale = type == Type::kUint8 ? 7.0f : type == Type::kUint16 ? 1801.0f : 0.125f;
+            const float scale = type == Type::kUint8    ? 7.0f
+                                : type == Type::kUint16 ? 1801.0f
+                                                        : 0.125f;
             for (int i = 0; i < 35 * channels; ++i)
                 image.values.push_back(scale * static_cast<float>(i % 36));
             write(image, "a.img");
@@ -257,7 +289,8 @@ TEST_F(StackFiles, EveryKindOfPictureComesBackAsItWas) {
             EXPECT_EQ(read.channels, channels);
             EXPECT_EQ(read.type, type);
             EXPECT_EQ(read.names, image.names);
-            EXPECT_EQ(read.values, image.values) << static_cast<int>(format) << " " << static_cast<int>(type) << " " << channels;
+            EXPECT_EQ(read.values, image.values)
+                << static_cast<int>(format) << " " << static_cast<int>(type) << " " << channels;
         }
 }
 
@@ -275,7 +308,8 @@ TEST_F(StackFiles, AStackIsADirectoryOrAPatternOfEqualPictures) {
     EXPECT_EQ(error_of([&] { (void)read_stack(folder_ / "m%d.png"); }).first, ExitCode::kIo);
     EXPECT_EQ(error_of([&] { (void)read_stack(folder_ / "l%s.png"); }).first, ExitCode::kBadInput);
     EXPECT_EQ(error_of([&] { (void)read_stack(folder_ / "none"); }).first, ExitCode::kIo);
-    EXPECT_EQ(error_of([&] { (void)read_stack(folder_ / "notes.txt"); }).first, ExitCode::kBadInput);
+    EXPECT_EQ(error_of([&] { (void)read_stack(folder_ / "notes.txt"); }).first,
+              ExitCode::kBadInput);
     write(stroke_stack(33, 1, 5).images.front(), "l5.png");
     const auto [code, text] = error_of([&] { (void)read_stack(folder_); });
     EXPECT_EQ(code, ExitCode::kBadInput);
@@ -284,10 +318,17 @@ TEST_F(StackFiles, AStackIsADirectoryOrAPatternOfEqualPictures) {
 }
 
 TEST_F(StackFiles, NanIsRefusedByPlace) {
-    LayerImage image{4, 3, 1, LayerImage::Type::kFloat, assets::Format::kExr, {"Y"}, std::vector<float>(12, 1.0f)};
+    LayerImage image{4,
+                     3,
+                     1,
+                     LayerImage::Type::kFloat,
+                     assets::Format::kExr,
+                     {"Y"},
+                     std::vector<float>(12, 1.0f)};
     image.values[6] = NAN;
     write(image, "nan.exr");
-    const auto [code, text] = error_of([&] { (void)assets::read_layer_image(folder_ / "nan.exr"); });
+    const auto [code, text] =
+        error_of([&] { (void)assets::read_layer_image(folder_ / "nan.exr"); });
     EXPECT_EQ(code, ExitCode::kBadInput);
     EXPECT_NE(text.find("column 2, row 1"), std::string::npos) << text;
 }

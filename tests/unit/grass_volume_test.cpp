@@ -39,7 +39,9 @@ double area_of(const Volume& volume) {
 }
 
 /// Half floats keep eleven bits.
-void expect_half(float read, float written) { EXPECT_LE(std::abs(read - written), std::abs(written) / 2048 + 1e-7f); }
+void expect_half(float read, float written) {
+    EXPECT_LE(std::abs(read - written), std::abs(written) / 2048 + 1e-7f);
+}
 
 TEST(Volume, HoldsTheBladesArea) {
     const grass::GrassSet& set = small_set();
@@ -70,7 +72,8 @@ TEST(Volume, BladesOverTheEdgeComeBackOnTheOtherSide) {
     for (const VoxelPlace& at : volume.at)
         far_side += at.x > 200;
     EXPECT_GT(far_side, static_cast<int>(volume.at.size() / 2));
-    EXPECT_NEAR(area_of(volume), blade_area(one, one.blades[0]), 0.01 * blade_area(one, one.blades[0]));
+    EXPECT_NEAR(area_of(volume), blade_area(one, one.blades[0]),
+                0.01 * blade_area(one, one.blades[0]));
 }
 
 TEST(Volume, CompanionsAreTheBladesOwn) {
@@ -89,9 +92,11 @@ TEST(Volume, CompanionsAreTheBladesOwn) {
         // The colour is one that the shading function gives some place along this blade.
         float nearest = 1;
         for (int k = 0; k <= 400; ++k)
-            nearest = std::min(nearest, glm::distance(volume.colour[i],
-                                                      shared::blade_albedo(set.species[0].look, {volume.rank[i], volume.seed[i]},
-                                                                           static_cast<float>(k) / 400, 1)));
+            nearest = std::min(nearest,
+                               glm::distance(volume.colour[i],
+                                             shared::blade_albedo(set.species[0].look,
+                                                                  {volume.rank[i], volume.seed[i]},
+                                                                  static_cast<float>(k) / 400, 1)));
         EXPECT_LT(nearest, 2e-3f);
     }
 }
@@ -103,7 +108,8 @@ TEST(Volume, ReadsBackEqualGridByGrid) {
     std::vector<std::string> names;
     for (const VdbGridInfo& grid : file.grids())
         names.push_back(grid.name);
-    EXPECT_EQ(names, (std::vector<std::string>{"density", "tangent", "colour", "rank", "seed", "others"}));
+    EXPECT_EQ(names,
+              (std::vector<std::string>{"density", "tangent", "colour", "rank", "seed", "others"}));
     const Volume made = rasterise_volume(set), read = file.read_volume({});
     EXPECT_EQ(read.voxel_m, made.voxel_m);
     EXPECT_EQ(read.cells, made.cells);
@@ -137,7 +143,8 @@ TEST(Volume, ReadsBackEqualGridByGrid) {
 
 class VolumeFiles : public ::testing::Test {
 protected:
-    VolumeFiles() : folder_(fs::temp_directory_path() / fmt::format("sward-volume-test-{}", ::getpid())) {
+    VolumeFiles()
+        : folder_(fs::temp_directory_path() / fmt::format("sward-volume-test-{}", ::getpid())) {
         fs::create_directories(folder_);
     }
     ~VolumeFiles() override { fs::remove_all(folder_); }
@@ -184,14 +191,15 @@ TEST(VdbFile, RefusesWhatIsCutOffOrNoVolume) {
     const std::vector<std::byte> good = encode_vdb(volume);
     EXPECT_EQ(VdbFile(good, "a.vdb").read_volume({}).density, volume.density);
     for (std::size_t n = 0; n < good.size(); n += 1 + good.size() / 200) {
-        const auto [code, text] =
-            error_of([&] { (void)VdbFile(std::span(good).subspan(0, n), "cut.vdb").read_volume({}); });
+        const auto [code, text] = error_of(
+            [&] { (void)VdbFile(std::span(good).subspan(0, n), "cut.vdb").read_volume({}); });
         EXPECT_EQ(code, ExitCode::kBadInput) << n;
         EXPECT_EQ(text.find("cut.vdb: "), 0u) << text;
         EXPECT_NE(text.find("expected"), std::string::npos) << text;
     }
     volume.density[7] = -1;
-    EXPECT_EQ(error_of([&] { (void)VdbFile(encode_vdb(volume), "neg.vdb").read_volume({}); }).first, ExitCode::kBadInput);
+    EXPECT_EQ(error_of([&] { (void)VdbFile(encode_vdb(volume), "neg.vdb").read_volume({}); }).first,
+              ExitCode::kBadInput);
     volume.density[7] = NAN;
     const auto [code, text] = error_of([&] {
         const std::vector<std::byte> bytes = encode_vdb(volume);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Joysticks, wheels and pedals: the file, the shape of an axis, buttons over time, what the kernel says of a device.
+// Joysticks, wheels and pedals: the file, the shape of an axis, buttons over time, what the kernel
+// says of a device.
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -90,7 +91,8 @@ TEST(ControlsFile, WhatIsWrittenIsReadBack) {
     EXPECT_EQ(again.devices[0].axes[0].curve, 1.5);
     EXPECT_EQ(again.devices[0].buttons[0].action, "pause");
     EXPECT_EQ(again.devices[1].axes[0].axis, Axis::kBrake);
-    const fs::path folder = fs::path(testing::TempDir()) / ("sward-controls-" + std::to_string(getpid()));
+    const fs::path folder =
+        fs::path(testing::TempDir()) / ("sward-controls-" + std::to_string(getpid()));
     const fs::path file = folder / "deep" / "controls.toml";
     EXPECT_TRUE(load_controls(file).devices.empty()); // none yet
     EXPECT_TRUE(load_controls({}).devices.empty());
@@ -126,14 +128,17 @@ TEST(ControlsFile, MistakesAreToldWithTheirPlace) {
     tells(device + "[[device.button]]\nbutton = 1\ndoes = \"so much\"\n", "does");
     tells("devices = 1\n", "devices");
     tells("[[device]\n", "not valid TOML");
-    EXPECT_THROW(static_cast<void>(parse_controls(std::string(100, '.') + "a", "controls.toml")), base::Error);
+    EXPECT_THROW(static_cast<void>(parse_controls(std::string(100, '.') + "a", "controls.toml")),
+                 base::Error);
     const std::vector<std::string> known = {"pause", "reset"};
-    const ControlMap map = parse_controls(device + "[[device.button]]\nbutton = 1\ndoes = \"puase\"\n", "controls.toml");
+    const ControlMap map = parse_controls(
+        device + "[[device.button]]\nbutton = 1\ndoes = \"puase\"\n", "controls.toml");
     try {
         check_actions(map, known, "controls.toml");
         FAIL();
     } catch (const base::Error& error) {
-        EXPECT_NE(std::string(error.what()).find("perhaps \"pause\""), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("perhaps \"pause\""), std::string::npos)
+            << error.what();
     }
     check_actions(parse_controls(kFile, "controls.toml"), known, "controls.toml");
 }
@@ -199,16 +204,19 @@ TEST(ControlReader, TakesDevicesAsTheyComeAndGo) {
     EXPECT_TRUE(reader.pressed().empty());
     // Two of a kind: each has its own buttons, and the axis that is farther out counts.
     const std::vector<float> left = {-0.9f};
-    const DeviceReading twins[] = {{kWheel, wheel, up}, {kWheel, left, up}}, one[] = {{kWheel, wheel, up}, {kWheel, left, down}};
+    const DeviceReading twins[] = {{kWheel, wheel, up}, {kWheel, left, up}},
+                        one[] = {{kWheel, wheel, up}, {kWheel, left, down}};
     reader.read(twins);
     EXPECT_LT(reader.axis(Axis::kSteer), -0.8);
     reader.read(one);
     EXPECT_EQ(reader.pressed().size(), 1u);
 }
 
-template<std::size_t N> void set(std::array<std::uint8_t, N>& bits, std::initializer_list<int> codes) {
+template<std::size_t N>
+void set(std::array<std::uint8_t, N>& bits, std::initializer_list<int> codes) {
     for (const int code : codes)
-        bits[static_cast<std::size_t>(code) / 8] = static_cast<std::uint8_t>(bits[static_cast<std::size_t>(code) / 8] | 1 << (code % 8));
+        bits[static_cast<std::size_t>(code) / 8] =
+            static_cast<std::uint8_t>(bits[static_cast<std::size_t>(code) / 8] | 1 << (code % 8));
 }
 
 TEST(Joysticks, AreNamedAndCountedAsSdlAndGlfwDo) {

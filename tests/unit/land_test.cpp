@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Landcover: what a scene says of its classes, what a texel of them holds, and areas and lines burnt over it.
+// Landcover: what a scene says of its classes, what a texel of them holds, and areas and lines
+// burnt over it.
 #include <numeric>
 
 #include "assets/land_features.h"
@@ -42,16 +43,22 @@ scene::Heightfield field(double side_m) {
 }
 
 double at(const scene::DensityMask& mask, glm::dvec2 place, scene::LandByte part) {
-    const glm::ivec2 texel(glm::floor((place - mask.first_m) / mask.size_m * glm::dvec2(mask.width, mask.height)));
-    return mask.land[static_cast<std::size_t>((texel.y * mask.width + texel.x) * scene::kLandBytes + part)] / 255.0;
+    const glm::ivec2 texel(
+        glm::floor((place - mask.first_m) / mask.size_m * glm::dvec2(mask.width, mask.height)));
+    return mask.land[static_cast<std::size_t>((texel.y * mask.width + texel.x) * scene::kLandBytes +
+                                              part)] /
+           255.0;
 }
 
 TEST_F(Land, AClassIsANumberOrATable) {
-    const scene::TerrainSpec terrain = load("outside_class = 30\nclasses_mb = 16\n"
-                                            "[terrain.classes]\n10 = 0.8\n30 = { density = 1, height = 0.8, dryness = -0.3 }\n80 = { ground = \"water\" }\n"
-                                            "[[terrain.line]]\nfile = \"r.geojson\"\nwidth_m = 6\nwhere = \"kind = 'road'\"\nground = \"asphalt\"\n"
-                                            "[[terrain.area]]\nfile = \"p.gpkg\"\nlayer = \"ponds\"\nclass = 80\n")
-                                           .terrain;
+    const scene::TerrainSpec terrain =
+        load("outside_class = 30\nclasses_mb = 16\n"
+             "[terrain.classes]\n10 = 0.8\n30 = { density = 1, height = 0.8, dryness = -0.3 }\n80 "
+             "= { ground = \"water\" }\n"
+             "[[terrain.line]]\nfile = \"r.geojson\"\nwidth_m = 6\nwhere = \"kind = "
+             "'road'\"\nground = \"asphalt\"\n"
+             "[[terrain.area]]\nfile = \"p.gpkg\"\nlayer = \"ponds\"\nclass = 80\n")
+            .terrain;
     EXPECT_EQ(terrain.classes.at(10), LandClass(0.8));
     EXPECT_EQ(terrain.classes.at(30), look(1, 0.8, -0.3, GroundKind::kSoil));
     EXPECT_EQ(terrain.classes.at(80), look(0, 1, 0, GroundKind::kWater));
@@ -65,22 +72,34 @@ TEST_F(Land, AClassIsANumberOrATable) {
     EXPECT_EQ(terrain.features[1].look.ground, GroundKind::kAsphalt);
     EXPECT_EQ(terrain.features[1].width_m, 6);
     EXPECT_TRUE(terrain.has_land());
-    EXPECT_FALSE(load("[terrain.classes]\n10 = 0.8\n").terrain.has_land()) << "densities alone need no landcover";
+    EXPECT_FALSE(load("[terrain.classes]\n10 = 0.8\n").terrain.has_land())
+        << "densities alone need no landcover";
 }
 
 TEST_F(Land, WhatAClassMayNotSay) {
     const std::string classes = "[terrain.classes]\n";
-    EXPECT_EQ(error(classes + "30 = { density = 1, height = 3 }\n"), "scene.toml:5: terrain.classes.30.height: found 3, expected a number from 0.2 to 2");
-    EXPECT_EQ(error(classes + "30 = { density = 1, dryness = 1.5 }\n"), "scene.toml:5: terrain.classes.30.dryness: found 1.5, expected a number from -1 to 1");
+    EXPECT_EQ(error(classes + "30 = { density = 1, height = 3 }\n"),
+              "scene.toml:5: terrain.classes.30.height: found 3, expected a number from 0.2 to 2");
+    EXPECT_EQ(
+        error(classes + "30 = { density = 1, dryness = 1.5 }\n"),
+        "scene.toml:5: terrain.classes.30.dryness: found 1.5, expected a number from -1 to 1");
     EXPECT_EQ(error(classes + "30 = { ground = \"lava\" }\n"),
-              "scene.toml:5: terrain.classes.30.ground: found \"lava\", expected one of soil, rock, sand, gravel, asphalt, water");
+              "scene.toml:5: terrain.classes.30.ground: found \"lava\", expected one of soil, "
+              "rock, sand, gravel, asphalt, water");
     EXPECT_EQ(error(classes + "30 = { height = 0.5 }\n"),
-              "scene.toml:5: terrain.classes.30.density: found nothing, expected a number from 0 to 1, or a ground without grass");
-    expect_holds(error(classes + "30 = { density = 1, heigth = 0.5 }\n"), "terrain.classes.30.heigth");
-    EXPECT_EQ(error("outside_class = 4\n" + classes + "30 = 1\n"), "scene.toml:4: terrain.outside_class: found 4, expected a class of [terrain.classes]");
+              "scene.toml:5: terrain.classes.30.density: found nothing, expected a number from 0 "
+              "to 1, or a ground without grass");
+    expect_holds(error(classes + "30 = { density = 1, heigth = 0.5 }\n"),
+                 "terrain.classes.30.heigth");
+    EXPECT_EQ(
+        error("outside_class = 4\n" + classes + "30 = 1\n"),
+        "scene.toml:4: terrain.outside_class: found 4, expected a class of [terrain.classes]");
     const std::string line = classes + "30 = 1\n[[terrain.line]]\nfile = \"r.geojson\"\n";
-    EXPECT_EQ(error(line + "class = 30\n"), "scene.toml:6: terrain.line[0].width_m: found nothing, expected this key");
-    EXPECT_EQ(error(line + "width_m = 2\nclass = 30\ndryness = 1\n"), "scene.toml:10: terrain.line[0].dryness: found class beside it, expected one of the two");
+    EXPECT_EQ(error(line + "class = 30\n"),
+              "scene.toml:6: terrain.line[0].width_m: found nothing, expected this key");
+    EXPECT_EQ(
+        error(line + "width_m = 2\nclass = 30\ndryness = 1\n"),
+        "scene.toml:10: terrain.line[0].dryness: found class beside it, expected one of the two");
 }
 
 TEST_F(Land, ATexelHoldsWhatItsClassSays) {
@@ -89,9 +108,11 @@ TEST_F(Land, ATexelHoldsWhatItsClassSays) {
     for (int n = 0; n < 1600; ++n)
         channel.values.push_back(n % 40 < 20 ? 1.0f : 2.0f);
     scene::TerrainSpec spec;
-    spec.classes = {{1, look(1, 1.5, 0.4, GroundKind::kSoil)}, {2, look(0, 1, 0, GroundKind::kAsphalt)}};
+    spec.classes = {{1, look(1, 1.5, 0.4, GroundKind::kSoil)},
+                    {2, look(0, 1, 0, GroundKind::kAsphalt)}};
     const scene::DensityMask mask = land_mask(&channel, spec, field(80));
-    EXPECT_EQ(glm::ivec2(mask.width, mask.height), glm::ivec2(160)) << "a quarter of a pixel, and half a metre";
+    EXPECT_EQ(glm::ivec2(mask.width, mask.height), glm::ivec2(160))
+        << "a quarter of a pixel, and half a metre";
     EXPECT_EQ(mask.highest, 1.5);
     EXPECT_TRUE(mask.heights);
     EXPECT_NEAR(at(mask, {-20, 3}, scene::kLandHeight), 1.5 / 2, kByte);
@@ -137,22 +158,31 @@ std::vector<float> covered(const FeatureRows& rows, int size) {
 
 TEST_F(Land, LinesAndAreasCoverWhatTheyAre) {
     constexpr int kSize = 200; // of half a metre
-    const auto area_of = [](const std::vector<float>& shares) { return 0.25 * std::accumulate(shares.begin(), shares.end(), 0.0); };
-    for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1), glm::dvec2(1, 0.1), glm::dvec2(-0.3, 1)}) {
+    const auto area_of = [](const std::vector<float>& shares) {
+        return 0.25 * std::accumulate(shares.begin(), shares.end(), 0.0);
+    };
+    for (const glm::dvec2 way : {glm::dvec2(1, 0), glm::dvec2(0, 1), glm::dvec2(1, 1),
+                                 glm::dvec2(1, 0.1), glm::dvec2(-0.3, 1)}) {
         LandShapes line;
         const glm::dvec2 half = 30.0 * glm::normalize(way);
         line.lines = {{-half, glm::dvec2(0), half}};
-        const std::vector<float> shares = covered(FeatureRows(line, 4, {-50, -50}, {0.5, 0.5}), kSize);
-        EXPECT_NEAR(area_of(shares), 60 * 4 + 3.14159 * 4, 3) << way.x << ", " << way.y; // round ends
+        const std::vector<float> shares =
+            covered(FeatureRows(line, 4, {-50, -50}, {0.5, 0.5}), kSize);
+        EXPECT_NEAR(area_of(shares), 60 * 4 + 3.14159 * 4, 3)
+            << way.x << ", " << way.y;            // round ends
         for (double s = -29; s < 29; s += 0.25) { // no gap along it
             const glm::ivec2 texel(glm::floor((glm::normalize(way) * s + 50.0) / 0.5));
             EXPECT_EQ(shares[static_cast<std::size_t>(texel.y * kSize + texel.x)], 1.0f);
         }
     }
     LandShapes ring; // a square with a hole
-    const auto square = [](double half) { return LandShapes::Ring{{-half, -half}, {half, -half}, {half, half}, {-half, half}, {-half, -half}}; };
+    const auto square = [](double half) {
+        return LandShapes::Ring{
+            {-half, -half}, {half, -half}, {half, half}, {-half, half}, {-half, -half}};
+    };
     ring.areas = {{square(20.1), square(10)}};
-    EXPECT_NEAR(area_of(covered(FeatureRows(ring, 0, {-50, -50}, {0.5, 0.5}), kSize)), 40.2 * 40.2 - 400, 3);
+    EXPECT_NEAR(area_of(covered(FeatureRows(ring, 0, {-50, -50}, {0.5, 0.5}), kSize)),
+                40.2 * 40.2 - 400, 3);
 }
 
 TEST_F(Land, FeaturesComeInTheTerrainsFrame) {
@@ -171,19 +201,24 @@ TEST_F(Land, FeaturesComeInTheTerrainsFrame) {
     EXPECT_NEAR(shapes.lines[0][1].x, 76, 1e-6);
     EXPECT_NEAR(shapes.lines[0][1].y, -111, 1e-6) << "south is positive";
     feature.where = "kind = 'canal'";
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "geometry: found none that \"where\" lets through, expected at least one line");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "geometry: found none that \"where\" lets through, expected at least one line");
     feature.where = "no such thing =";
     expect_holds(error_of([&] { (void)read_features(feature, ground); }), "where: found");
     feature.where = "";
     feature.width_m = 0;
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "expected at least one area");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "expected at least one area");
     feature.layer = "roads";
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "layer: found no \"roads\"");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "layer: found no \"roads\"");
     ground.origin.reset();
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "found no place on Earth");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "found no place on Earth");
     put(dir_ / "f.geojson", "{\"type\": \"Feature");
     ground.origin = scene::Georeference{47, 10, "", {76000, 111000}, "test"};
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "expected GeoJSON or GeoPackage");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "expected GeoJSON or GeoPackage");
 }
 
 } // namespace

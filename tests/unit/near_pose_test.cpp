@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Living blades of the meadow: how they lean beside the far tier, where they stand at the hand-over, and their patches.
+// Living blades of the meadow: how they lean beside the far tier, where they stand at the
+// hand-over, and their patches.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +23,10 @@ using glm::vec4;
 /// The meadow's blades; images are not needed.
 const grass::GrassSet& meadow() {
     static const grass::GrassSet set = [] {
-        const auto patch = texgen::generate_patch(texgen::load_preset(std::filesystem::path(SWARD_SOURCE_DIR) / "texgen/presets/meadow.toml"), 2);
+        const auto patch =
+            texgen::generate_patch(texgen::load_preset(std::filesystem::path(SWARD_SOURCE_DIR) /
+                                                       "texgen/presets/meadow.toml"),
+                                   2);
         grass::GrassSet out;
         out.side_m = static_cast<float>(patch.side_m);
         out.variants = patch.variants();
@@ -43,10 +47,13 @@ TEST(NearPose, MeanTipsOfBothTiersAgree) {
     EXPECT_LT(response, 0.4);
     double worst = 0, gentle = 0;
     for (const double speed : {1.0, 2.0, 4.0, 7.0, 10.0, 15.0, 20.0, 30.0, 40.0}) {
-        const auto tip = blades::mean_tip(set, speed, response, 600); // others than the fit has seen, too
+        const auto tip =
+            blades::mean_tip(set, speed, response, 600); // others than the fit has seen, too
         const double off = glm::length(tip.simulated - tip.warped) / set.canopy_m;
-        std::printf("%4.0f m/s: simulated %.1f mm downwind, %.1f mm down; warped %.1f, %.1f; apart %.2f %% of the canopy\n", speed,
-                    1e3 * tip.simulated.x, -1e3 * tip.simulated.y, 1e3 * tip.warped.x, -1e3 * tip.warped.y, 100 * off);
+        std::printf("%4.0f m/s: simulated %.1f mm downwind, %.1f mm down; warped %.1f, %.1f; apart "
+                    "%.2f %% of the canopy\n",
+                    speed, 1e3 * tip.simulated.x, -1e3 * tip.simulated.y, 1e3 * tip.warped.x,
+                    -1e3 * tip.warped.y, 100 * off);
         worst = std::max(worst, off);
         gentle = speed <= 10 ? std::max(gentle, off) : gentle;
     }
@@ -57,18 +64,23 @@ TEST(NearPose, MeanTipsOfBothTiersAgree) {
     EXPECT_GT(glm::length(wrong.simulated - wrong.warped) / set.canopy_m, 0.04);
 }
 
-/// A blade's tip as blade.vert draws it at a distance. `fades`: own_pose_share or, to show what it does, all of the own pose.
-vec3 drawn_tip(const shared::BladeRecord& blade, vec4 state, vec2 wind, float response, float distance, vec2 band, bool fades) {
+/// A blade's tip as blade.vert draws it at a distance. `fades`: own_pose_share or, to show what it
+/// does, all of the own pose.
+vec3 drawn_tip(const shared::BladeRecord& blade, vec4 state, vec2 wind, float response,
+               float distance, vec2 band, bool fades) {
     const float canopy = meadow().canopy_m;
     vec3 v1(blade.v1), v2(blade.v2), own1, own2;
-    shared::pose_blade(v1, v2, {blade.shape.y, canopy, response, shared::pose_share(blade.root.z, distance, band)}, wind);
+    shared::pose_blade(
+        v1, v2, {blade.shape.y, canopy, response, shared::pose_share(blade.root.z, distance, band)},
+        wind);
     shared::simulated_pose(shared::set_blade_shape(blade, canopy), state, own1, own2);
     return glm::mix(v2, own2, fades ? shared::own_pose_share(blade.root.z, distance, band) : 1.0f);
 }
 
 TEST(NearPose, AtTheSwapABladeStandsWhereItsShellImageDoes) {
     const auto& set = meadow();
-    const float response = static_cast<float>(blades::fit_response(set)), focal_px = 935; // 1080 rows, 60 degrees
+    const float response = static_cast<float>(blades::fit_response(set)),
+                focal_px = 935; // 1080 rows, 60 degrees
     const auto bands = lod::bands({}, {focal_px, 0.004, 0.004, 4}, {});
     const vec2 band(bands.handover);
     const shared::BladeStep rules = shared::plain_blade_step(1.0f / 60, set.canopy_m, response);
@@ -87,19 +99,27 @@ TEST(NearPose, AtTheSwapABladeStandsWhereItsShellImageDoes) {
                 state = blades::step_blade(rules, body, vec3(0), wind, {&ball, 1}, state);
             }
             float distance = 0.5f * band.x; // out to where its first pixel turns to the shell
-            while (shared::handover_near(blade.root.z, distance, band, 0.999f, shared::kHandoverRank)) {
+            while (shared::handover_near(blade.root.z, distance, band, 0.999f,
+                                         shared::kHandoverRank)) {
                 distance *= 1.001f;
             }
-            const vec3 image = vec3(blade.v2) + shared::bend_offset(blade.v2.y, set.canopy_m, wind, response);
-            const auto pixels = [&](vec3 tip) { return glm::distance(tip, image) * focal_px / distance; };
-            const double off = pixels(drawn_tip(blade, state, wind, response, distance, band, true));
+            const vec3 image =
+                vec3(blade.v2) + shared::bend_offset(blade.v2.y, set.canopy_m, wind, response);
+            const auto pixels = [&](vec3 tip) {
+                return glm::distance(tip, image) * focal_px / distance;
+            };
+            const double off =
+                pixels(drawn_tip(blade, state, wind, response, distance, band, true));
             sum += off;
             most = std::max(most, off);
-            most_unfaded = std::max<double>(most_unfaded, pixels(drawn_tip(blade, state, wind, response, distance, band, false)));
+            most_unfaded = std::max<double>(
+                most_unfaded,
+                pixels(drawn_tip(blade, state, wind, response, distance, band, false)));
             ++count;
         }
     }
-    std::printf("%d swaps: %.4f pixels in the mean, %.4f at worst; with the own pose kept, %.1f\n", count, sum / count, most, most_unfaded);
+    std::printf("%d swaps: %.4f pixels in the mean, %.4f at worst; with the own pose kept, %.1f\n",
+                count, sum / count, most, most_unfaded);
     EXPECT_LE(sum / count, 0.5);
     EXPECT_LE(most, 2);
     EXPECT_GT(most_unfaded, 20);
@@ -129,7 +149,8 @@ TEST(NearPose, PatchesAreCompactAndHoldEveryBladeOnce) {
         for (std::uint32_t n = set.variant_begin[v]; n < set.variant_begin[v + 1]; ++n) {
             ++seen[order.blades[n]];
             ASSERT_EQ(order.places[order.blades[n]], n - set.variant_begin[v]);
-            ASSERT_TRUE(order.blades[n] >= set.variant_begin[v] && order.blades[n] < set.variant_begin[v + 1]);
+            ASSERT_TRUE(order.blades[n] >= set.variant_begin[v] &&
+                        order.blades[n] < set.variant_begin[v + 1]);
         }
     }
     EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), static_cast<std::ptrdiff_t>(seen.size()));
@@ -138,7 +159,8 @@ TEST(NearPose, PatchesAreCompactAndHoldEveryBladeOnce) {
         area += (box.z - box.x) * (box.w - box.y);
     }
     const double tiles = static_cast<double>(set.side_m) * set.side_m * set.variants;
-    std::printf("%zu patches; their boxes cover %.2f times the ground\n", order.boxes.size(), area / tiles);
+    std::printf("%zu patches; their boxes cover %.2f times the ground\n", order.boxes.size(),
+                area / tiles);
     EXPECT_LT(area / tiles, 3); // by rank each box would be the whole tile
 }
 
@@ -159,7 +181,9 @@ TEST(NearPose, PagesHoldWhatIsNearAndNoMoreThanTheirBytes) {
     EXPECT_LT(pages.fresh().size(), first / 2);
     blades::Pages small(set, {8, 3u << 20});
     small.update(surface, {0.7, 11.5, 0.3});
-    EXPECT_LE(small.slots().size() * static_cast<std::size_t>(small.order().patches_a_page) * CULL_GROUP * sizeof(vec4), 3u << 20);
+    EXPECT_LE(small.slots().size() * static_cast<std::size_t>(small.order().patches_a_page) *
+                  CULL_GROUP * sizeof(vec4),
+              3u << 20);
     EXPECT_LT(small.reach_m(), 8);
     EXPECT_GT(small.reach_m(), 2);
     blades::Pages none(set, {0, 64u << 20});

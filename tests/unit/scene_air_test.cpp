@@ -10,7 +10,9 @@
 namespace sward {
 namespace {
 
-scene::Scene scene_with(const std::string& air) { return scene::parse_scene("[terrain]\nelevation = \"a.hgt\"\n" + air, "scene.toml"); }
+scene::Scene scene_with(const std::string& air) {
+    return scene::parse_scene("[terrain]\nelevation = \"a.hgt\"\n" + air, "scene.toml");
+}
 
 std::string refused(const std::string& air) {
     try {
@@ -33,7 +35,8 @@ TEST(AirSection, RefusesWhatNoAirIs) {
         const std::string message = refused(std::string("[air]\nvisibility_km = ") + value + "\n");
         EXPECT_NE(message.find("air.visibility_km"), std::string::npos) << value << ": " << message;
     }
-    EXPECT_NE(refused("[air]\nvisibilty_km = 5\n").find("expected air.visibility_km"), std::string::npos);
+    EXPECT_NE(refused("[air]\nvisibilty_km = 5\n").find("expected air.visibility_km"),
+              std::string::npos);
 }
 
 } // namespace

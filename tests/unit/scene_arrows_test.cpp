@@ -57,10 +57,12 @@ TEST(ArrowEdit, AMovedTipTakesItsChildrenAlong) {
     EXPECT_EQ(edit.arrows()[1].root, glm::dvec2(12, 1));
     EXPECT_EQ(edit.arrows()[2].root, glm::dvec2(12, 1));
     EXPECT_EQ(edit.arrows()[3].root, glm::dvec2(15, -5)) << "not a grandchild";
-    EXPECT_TRUE(edit.move({1, ArrowEnd::kRoot}, {11, 0})) << "a root that sits on a tip is that tip";
+    EXPECT_TRUE(edit.move({1, ArrowEnd::kRoot}, {11, 0}))
+        << "a root that sits on a tip is that tip";
     EXPECT_EQ(edit.arrows()[0].tip, glm::dvec2(11, 0));
     EXPECT_EQ(edit.arrows()[2].root, glm::dvec2(11, 0));
-    EXPECT_FALSE(edit.move({0, ArrowEnd::kTip}, {15, 5})) << "the child to the right would have no length";
+    EXPECT_FALSE(edit.move({0, ArrowEnd::kTip}, {15, 5}))
+        << "the child to the right would have no length";
     EXPECT_EQ(edit.arrows()[0].tip, glm::dvec2(11, 0));
     EXPECT_TRUE(edit.move({0, ArrowEnd::kRoot}, {-3, 0}));
     EXPECT_FALSE(edit.move({0, ArrowEnd::kRoot}, {INFINITY, 0}));
@@ -80,9 +82,11 @@ TEST(ArrowEdit, APointTakenOutJoinsWhatItJoined) {
     whole.erase_branch(1);
     ASSERT_EQ(whole.arrows().size(), 2u);
     EXPECT_EQ(whole.arrows()[1].id, "right");
-    ArrowEdit back({arrow("a", "", {0, 0}, {5, 0}), arrow("b", "a", {5, 0}, {0, 0}), arrow("c", "b", {0, 0}, {3, 3})});
+    ArrowEdit back({arrow("a", "", {0, 0}, {5, 0}), arrow("b", "a", {5, 0}, {0, 0}),
+                    arrow("c", "b", {0, 0}, {3, 3})});
     back.erase(0);
-    EXPECT_TRUE(back.arrows().empty()) << "b runs back to a's root: it would have no length, and c hangs on it";
+    EXPECT_TRUE(back.arrows().empty())
+        << "b runs back to a's root: it would have no length, and c hangs on it";
 }
 
 TEST(ArrowEdit, NumbersStayInTheirRanges) {
@@ -97,7 +101,8 @@ TEST(ArrowEdit, NumbersStayInTheirRanges) {
 
 TEST(ArrowEdit, FindsTheNearestPoint) {
     const ArrowEdit edit(tree());
-    EXPECT_EQ(edit.nearest({10.2, 0.1}, 1), (ArrowHandle{0, ArrowEnd::kTip})) << "before the roots on it";
+    EXPECT_EQ(edit.nearest({10.2, 0.1}, 1), (ArrowHandle{0, ArrowEnd::kTip}))
+        << "before the roots on it";
     EXPECT_EQ(edit.nearest({0.2, 0.1}, 1), (ArrowHandle{0, ArrowEnd::kRoot}));
     EXPECT_EQ(edit.nearest({20, -4.5}, 1), (ArrowHandle{3, ArrowEnd::kTip}));
     EXPECT_FALSE(edit.nearest({5, 0}, 1));
@@ -195,11 +200,17 @@ TEST(ArrowText, NothingChangedIsTheSameBytes) {
 }
 
 TEST(ArrowText, OlderSpellingsOfSpeedsAreRead) {
-    const auto scene = parse_scene(replaced(replaced(kText, "speed_mps = 3", "speed_ms = 7"), "strength_mps = 5.0", "strength_ms = 2"), "s.toml");
+    const auto scene = parse_scene(replaced(replaced(kText, "speed_mps = 3", "speed_ms = 7"),
+                                            "strength_mps = 5.0", "strength_ms = 2"),
+                                   "s.toml");
     EXPECT_EQ(scene.wind.speed_mps, 7);
     EXPECT_EQ(scene.wind.arrows.at(0).strength_mps, 2);
-    EXPECT_THROW(static_cast<void>(arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = -7"))), sward::base::Error);
-    EXPECT_THROW(static_cast<void>(arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = 7\nspeed_mps = 3"))), sward::base::Error) << "one of the two";
+    EXPECT_THROW(static_cast<void>(arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = -7"))),
+                 sward::base::Error);
+    EXPECT_THROW(static_cast<void>(
+                     arrows_of(replaced(kText, "speed_mps = 3", "speed_ms = 7\nspeed_mps = 3"))),
+                 sward::base::Error)
+        << "one of the two";
 }
 
 TEST(ArrowText, AnOlderFileKeepsItsSpelling) {
@@ -215,10 +226,12 @@ TEST(ArrowText, ChangesOnlyTheValuesThatChanged) {
     arrows[1].root = {11, 0.5};
     arrows[1].tip = {15, -6};
     arrows[2].radius_m = 3;
-    std::string expected = replaced(kText, "[10.0, 0]            # to", "[11, 0.5]            # to");
+    std::string expected =
+        replaced(kText, "[10.0, 0]            # to", "[11, 0.5]            # to");
     expected = replaced(expected, "root = [10, 0]", "root = [11, 0.5]");
     expected = replaced(expected, "[\n    15,\n    -5, # north\n]", "[15, -6]");
-    expected = replaced(expected, "tip = [15, 5]\nstrength_mps = 5\n", "tip = [15, 5]\nstrength_mps = 5\nradius_m = 3\n");
+    expected = replaced(expected, "tip = [15, 5]\nstrength_mps = 5\n",
+                        "tip = [15, 5]\nstrength_mps = 5\nradius_m = 3\n");
     EXPECT_EQ(saved(kText, arrows), expected);
     EXPECT_EQ(arrows_of(expected), arrows);
 }
@@ -229,15 +242,18 @@ TEST(ArrowText, CutsAndAppendsBlocks) {
     arrows.push_back(arrow("new", "trunk", {10, 0}, {12.25, 7}));
     const std::string text = saved(kText, arrows);
     EXPECT_EQ(arrows_of(text), arrows);
-    EXPECT_NE(text.find("# The barn.\n[[wind.obstacle]]"), std::string::npos) << "the next block's comment stays";
+    EXPECT_NE(text.find("# The barn.\n[[wind.obstacle]]"), std::string::npos)
+        << "the next block's comment stays";
     EXPECT_EQ(text.find("north"), std::string::npos);
-    EXPECT_NE(text.find("strength_mps = 5\n\n[[wind.arrow]]\nid = \"new\"\nparent = \"trunk\"\nroot = [10, 0]\ntip = [12.25, 7]\n"
+    EXPECT_NE(text.find("strength_mps = 5\n\n[[wind.arrow]]\nid = \"new\"\nparent = "
+                        "\"trunk\"\nroot = [10, 0]\ntip = [12.25, 7]\n"
                         "strength_mps = 5\nradius_m = 2\n[camera.road]"),
               std::string::npos)
         << text;
     const std::string bare = saved(kText, {});
     EXPECT_TRUE(arrows_of(bare).empty());
-    EXPECT_NE(bare.find("# The trunk."), std::string::npos) << "comments between blocks are nobody's to cut";
+    EXPECT_NE(bare.find("# The trunk."), std::string::npos)
+        << "comments between blocks are nobody's to cut";
     // Without any: at the end, and the file gets the newline that it lacks.
     const std::string end = saved("[terrain]\nelevation = \"a\"", {arrow("a", "", {0, 0}, {1, 0})});
     EXPECT_TRUE(end.starts_with("[terrain]\nelevation = \"a\"\n\n[[wind.arrow]]\n")) << end;
@@ -266,22 +282,39 @@ TEST(ArrowText, KeepsLineEndings) {
 
 TEST(ArrowText, AnythingThatTheEditorDoesReadsBackEqual) {
     std::mt19937 random(3);
-    const auto number = [&](double most) { return std::uniform_real_distribution<double>(0, most)(random); };
+    const auto number = [&](double most) {
+        return std::uniform_real_distribution<double>(0, most)(random);
+    };
     std::string text = kText;
     for (int round = 0; round < 60; ++round) {
         ArrowEdit edit(arrows_of(text));
         for (int i = 0; i < 6; ++i) {
             const std::size_t count = edit.arrows().size();
-            const std::size_t any = count > 0 ? static_cast<std::size_t>(number(static_cast<double>(count) - 1e-9)) : 0;
+            const std::size_t any =
+                count > 0 ? static_cast<std::size_t>(number(static_cast<double>(count) - 1e-9)) : 0;
             const glm::dvec2 place(number(60) - 30, number(60) - 30);
             switch (count == 0 ? 0 : static_cast<int>(number(6.999))) {
-            case 0: (void)edit.add(place, place + glm::dvec2(3, 1)); break;
-            case 1: (void)edit.branch(any, place); break;
-            case 2: (void)edit.move({any, ArrowEnd::kTip}, place); break;
-            case 3: (void)edit.move({any, ArrowEnd::kRoot}, place); break;
-            case 4: edit.erase(any); break;
-            case 5: edit.set_strength(any, number(20)); break;
-            default: (void)edit.undo(); break;
+            case 0:
+                (void)edit.add(place, place + glm::dvec2(3, 1));
+                break;
+            case 1:
+                (void)edit.branch(any, place);
+                break;
+            case 2:
+                (void)edit.move({any, ArrowEnd::kTip}, place);
+                break;
+            case 3:
+                (void)edit.move({any, ArrowEnd::kRoot}, place);
+                break;
+            case 4:
+                edit.erase(any);
+                break;
+            case 5:
+                edit.set_strength(any, number(20));
+                break;
+            default:
+                (void)edit.undo();
+                break;
             }
         }
         text = saved(text, edit.arrows());
@@ -299,7 +332,9 @@ TEST(ArrowText, SavingIsWholeOrNot) {
     std::string name = (fs::temp_directory_path() / "sward_arrows_XXXXXX").string();
     const fs::path dir = ::mkdtemp(name.data());
     const fs::path file = dir / "scene.toml";
-    const auto put = [&](const std::string& text) { std::ofstream(file, std::ios::binary) << text; };
+    const auto put = [&](const std::string& text) {
+        std::ofstream(file, std::ios::binary) << text;
+    };
     const auto message = [&](const std::vector<WindArrow>& arrows) {
         try {
             save_arrows(file, arrows);
@@ -311,19 +346,25 @@ TEST(ArrowText, SavingIsWholeOrNot) {
     put(kText);
     EXPECT_EQ(message({arrow("a", "", {0, 0}, {1, 0})}), "saved");
     EXPECT_EQ(load_scene(file).wind.arrows.size(), 1u);
-    // A form that cannot be replaced, an arrow that no file may hold, a file that is broken: told, and left alone.
-    const std::string line = "[terrain]\nelevation = \"a\"\n[wind]\narrow = [{ id = \"a\", root = [0, 0], tip = [1, 0], strength_mps = 1 }]\n";
-    for (const auto& [text, piece] : {std::pair<std::string, std::string>{line, "wind.arrow: found an array in one line"},
-                                      {"wind = { speed_mps = 4 }\n[terrain]\nelevation = \"a\"\n", "not valid TOML"},
-                                      {"[terrain", "not valid TOML"}}) {
+    // A form that cannot be replaced, an arrow that no file may hold, a file that is broken: told,
+    // and left alone.
+    const std::string line = "[terrain]\nelevation = \"a\"\n[wind]\narrow = [{ id = \"a\", root = "
+                             "[0, 0], tip = [1, 0], strength_mps = 1 }]\n";
+    for (const auto& [text, piece] :
+         {std::pair<std::string, std::string>{line, "wind.arrow: found an array in one line"},
+          {"wind = { speed_mps = 4 }\n[terrain]\nelevation = \"a\"\n", "not valid TOML"},
+          {"[terrain", "not valid TOML"}}) {
         put(text);
-        EXPECT_NE(message({arrow("b", "", {0, 0}, {1, 0})}).find(piece), std::string::npos) << message({});
+        EXPECT_NE(message({arrow("b", "", {0, 0}, {1, 0})}).find(piece), std::string::npos)
+            << message({});
         EXPECT_EQ(base::read_text(file, 1 << 20), text);
     }
     put(kText);
-    EXPECT_NE(message({arrow("a", "nobody", {0, 0}, {1, 0})}).find("wind.arrow[0].parent"), std::string::npos);
+    EXPECT_NE(message({arrow("a", "nobody", {0, 0}, {1, 0})}).find("wind.arrow[0].parent"),
+              std::string::npos);
     EXPECT_EQ(base::read_text(file, 1 << 20), kText);
-    EXPECT_EQ(std::distance(fs::directory_iterator(dir), fs::directory_iterator()), 1) << "no temporary stays";
+    EXPECT_EQ(std::distance(fs::directory_iterator(dir), fs::directory_iterator()), 1)
+        << "no temporary stays";
     fs::remove_all(dir);
 }
 

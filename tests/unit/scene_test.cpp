@@ -252,36 +252,63 @@ TEST_F(SceneFile, SurfacesCarryTheirOwnGrass) {
     EXPECT_EQ(plain.terrain.surface.filename(), "m.glb");
     EXPECT_EQ(plain.surface_grass.placement, Placement::kMixed);
     EXPECT_EQ(plain.surface_grass.share_in_tufts(), 0.5);
-    const Scene scene = load(kSurface + "[surface_grass]\ndensity_per_m2 = 250\nplacement = \"tufts\"\nshape = \"triangle-tip\"\n"
-                                        "tip_tau = 0.6\nblade_height_m = [0.1, 0.2]\nroot_colour = [0.1, 0.2, 0.3]\nseed = 9\n");
+    const Scene scene = load(
+        kSurface +
+        "[surface_grass]\ndensity_per_m2 = 250\nplacement = \"tufts\"\nshape = \"triangle-tip\"\n"
+        "tip_tau = 0.6\nblade_height_m = [0.1, 0.2]\nroot_colour = [0.1, 0.2, 0.3]\nseed = 9\n");
     EXPECT_EQ(scene.surface_grass.density_per_m2, 250);
     EXPECT_EQ(scene.surface_grass.share_in_tufts(), 1);
     EXPECT_EQ(scene.surface_grass.shape, BladeShape::kTriangleTip);
     EXPECT_EQ(scene.surface_grass.blade_height_m, glm::dvec2(0.1, 0.2));
     EXPECT_EQ(scene.surface_grass.root_colour, glm::dvec3(0.1, 0.2, 0.3));
-    const auto wrong = [&](const std::string& line) { return error(kSurface + "[surface_grass]\n" + line + "\n"); };
-    EXPECT_EQ(wrong("density_per_m2 = 0"), "scene.toml:4: surface_grass.density_per_m2: found 0, expected a number from 0.01 to 1000000 blades per m2");
-    EXPECT_EQ(wrong("placement = \"clumps\""), "scene.toml:4: surface_grass.placement: found \"clumps\", expected one of single, tufts, mixed");
-    EXPECT_EQ(wrong("shape = \"leaf\""), "scene.toml:4: surface_grass.shape: found \"leaf\", expected one of quad, triangle, quadratic, triangle-tip, dandelion");
-    EXPECT_EQ(wrong("blade_height_m = [0.3, 0.1]"), "scene.toml:4: surface_grass.blade_height_m: found [0.3, 0.1], expected the lesser first");
-    EXPECT_EQ(wrong("blade_width_m = [0, 0.1]"), "scene.toml:4: surface_grass.blade_width_m[0]: found 0, expected a number from 0.0001 to 1 m");
-    EXPECT_EQ(wrong("tip_color = [1, 1, 1]"), "scene.toml:4: unknown key: found surface_grass.tip_color, expected surface_grass.tip_colour");
-    EXPECT_EQ(wrong("tip_colour = [1, 1, 2]"), "scene.toml:4: surface_grass.tip_colour[2]: found 2, expected a number from 0 to 1");
-    EXPECT_EQ(wrong("placement = \"single\"\ntuft_share = 0.3"), "scene.toml:5: surface_grass.tuft_share: found no mixed placement, expected placement = \"mixed\" beside it");
-    const Scene of_set = load(kSurface + "[surface_grass]\nset = \"fur.toml\"\ndensity = 0.7\nslope_deg = 40\n");
+    const auto wrong = [&](const std::string& line) {
+        return error(kSurface + "[surface_grass]\n" + line + "\n");
+    };
+    EXPECT_EQ(wrong("density_per_m2 = 0"), "scene.toml:4: surface_grass.density_per_m2: found 0, "
+                                           "expected a number from 0.01 to 1000000 blades per m2");
+    EXPECT_EQ(wrong("placement = \"clumps\""), "scene.toml:4: surface_grass.placement: found "
+                                               "\"clumps\", expected one of single, tufts, mixed");
+    EXPECT_EQ(wrong("shape = \"leaf\""),
+              "scene.toml:4: surface_grass.shape: found \"leaf\", expected one of quad, triangle, "
+              "quadratic, triangle-tip, dandelion");
+    EXPECT_EQ(
+        wrong("blade_height_m = [0.3, 0.1]"),
+        "scene.toml:4: surface_grass.blade_height_m: found [0.3, 0.1], expected the lesser first");
+    EXPECT_EQ(wrong("blade_width_m = [0, 0.1]"), "scene.toml:4: surface_grass.blade_width_m[0]: "
+                                                 "found 0, expected a number from 0.0001 to 1 m");
+    EXPECT_EQ(wrong("tip_color = [1, 1, 1]"),
+              "scene.toml:4: unknown key: found surface_grass.tip_color, expected "
+              "surface_grass.tip_colour");
+    EXPECT_EQ(wrong("tip_colour = [1, 1, 2]"),
+              "scene.toml:4: surface_grass.tip_colour[2]: found 2, expected a number from 0 to 1");
+    EXPECT_EQ(wrong("placement = \"single\"\ntuft_share = 0.3"),
+              "scene.toml:5: surface_grass.tuft_share: found no mixed placement, expected "
+              "placement = \"mixed\" beside it");
+    const Scene of_set =
+        load(kSurface + "[surface_grass]\nset = \"fur.toml\"\ndensity = 0.7\nslope_deg = 40\n");
     EXPECT_EQ(of_set.surface_grass.set, "fur.toml");
     EXPECT_EQ(of_set.grass.set, "fur.toml"); // what is looked up and baked
     EXPECT_EQ(of_set.grass.density, 0.7);
-    EXPECT_EQ(wrong("set = \"fur.toml\"\nstiffness = [0.2, 0.4]"), "scene.toml:5: surface_grass.stiffness: found set beside it, which describes the blades, expected one of the two");
-    EXPECT_EQ(wrong("density = 0.5"), "scene.toml:4: surface_grass.density: found no set, expected density_per_m2, or a set beside it");
-    EXPECT_EQ(error(kTerrain + "[surface_grass]\nseed = 1\n"), "scene.toml:3: surface_grass: found terrain.elevation, expected terrain.surface beside it");
+    EXPECT_EQ(wrong("set = \"fur.toml\"\nstiffness = [0.2, 0.4]"),
+              "scene.toml:5: surface_grass.stiffness: found set beside it, which describes the "
+              "blades, expected one of the two");
+    EXPECT_EQ(wrong("density = 0.5"), "scene.toml:4: surface_grass.density: found no set, expected "
+                                      "density_per_m2, or a set beside it");
+    EXPECT_EQ(
+        error(kTerrain + "[surface_grass]\nseed = 1\n"),
+        "scene.toml:3: surface_grass: found terrain.elevation, expected terrain.surface beside it");
 }
 
 TEST_F(SceneFile, ObjectsStandOrFollowTheirPath) {
-    const Scene scene = load(kTerrain + "[[object]]\nkind = \"sphere\"\nposition = [1, 2, 3]\nagl = false\nyaw_deg = 30\n"
-                                        "[[object]]\nkind = \"mesh\"\nmesh = \"a.glb\"\npath = \"p\"\nyaw_deg = 10\ncolour = [0.5, 0, 0]\nmost_spheres = 40\n"
-                                        "[path.p]\nagl = true\nkeys = [{ t = 0, position = [0, 1, 0], yaw_deg = 90 }, { t = 2, position = [4, 1, 0] }]\n");
-    const Pose still = object_pose(scene.objects[0], scene.paths, 7), moving = object_pose(scene.objects[1], scene.paths, 1);
+    const Scene scene =
+        load(kTerrain +
+             "[[object]]\nkind = \"sphere\"\nposition = [1, 2, 3]\nagl = false\nyaw_deg = 30\n"
+             "[[object]]\nkind = \"mesh\"\nmesh = \"a.glb\"\npath = \"p\"\nyaw_deg = 10\ncolour = "
+             "[0.5, 0, 0]\nmost_spheres = 40\n"
+             "[path.p]\nagl = true\nkeys = [{ t = 0, position = [0, 1, 0], yaw_deg = 90 }, { t = "
+             "2, position = [4, 1, 0] }]\n");
+    const Pose still = object_pose(scene.objects[0], scene.paths, 7),
+               moving = object_pose(scene.objects[1], scene.paths, 1);
     EXPECT_EQ(still.position, glm::dvec3(1, 2, 3));
     EXPECT_FALSE(still.agl);
     EXPECT_EQ(still.yaw_deg, 30);
@@ -289,10 +316,12 @@ TEST_F(SceneFile, ObjectsStandOrFollowTheirPath) {
     EXPECT_TRUE(moving.agl);
     EXPECT_EQ(moving.yaw_deg, 100);
     EXPECT_EQ(scene.objects[1].most_spheres, 40);
-    EXPECT_EQ(error(kTerrain + "[[object]]\nkind = \"sphere\"\npath = \"p\"\nagl = true\n[path.p]\nkeys = [{ t = 0, position = [0, 0, 0] }]\n"),
+    EXPECT_EQ(error(kTerrain + "[[object]]\nkind = \"sphere\"\npath = \"p\"\nagl = "
+                               "true\n[path.p]\nkeys = [{ t = 0, position = [0, 0, 0] }]\n"),
               "scene.toml:6: object[0].agl: found a path beside it, expected agl in the path");
-    EXPECT_EQ(error(kTerrain + "[[object]]\nkind = \"sphere\"\nposition = [0, 0, 0]\nradius_m = -1\n"),
-              "scene.toml:6: object[0].radius_m: found -1, expected a number from 0.01 to 1000 m");
+    EXPECT_EQ(
+        error(kTerrain + "[[object]]\nkind = \"sphere\"\nposition = [0, 0, 0]\nradius_m = -1\n"),
+        "scene.toml:6: object[0].radius_m: found -1, expected a number from 0.01 to 1000 m");
 }
 
 TEST_F(SceneFile, KeysDependOnEachOther) {
@@ -468,7 +497,8 @@ TEST(Pose, RefusesWhatIsNone) {
     const auto error = [](const std::string& text) {
         return error_of([&] { (void)parse_pose(text, "--camera"); }, ExitCode::kUsage);
     };
-    const std::string form = ", expected x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
+    const std::string form =
+        ", expected x,y,z,yaw,pitch or abs:x,y,z,yaw,pitch or geo:LAT,LON,HEIGHT,YAW,PITCH";
     EXPECT_EQ(error(""), "--camera: found nothing" + form);
     EXPECT_EQ(error("1,2,3,4"), "--camera: found 1,2,3,4" + form);
     EXPECT_EQ(error("1,2,3,4,5,6"), "--camera: found 1,2,3,4,5,6" + form);
@@ -604,24 +634,35 @@ TEST(PlacesOnEarth, AreReadAndSettled) {
     EXPECT_TRUE(pose.agl);
     EXPECT_EQ(pose.yaw_deg, 90);
     EXPECT_FALSE(parse_pose("abs:geo:1,2,3,4,5", "--camera").agl);
-    for (const char* text : {"geo:1,2,3,4", "geo:91,2,3,4,5", "geo:1,361,3,4,5", "geo:nan,2,3,4,5", "geo:", "GEO:1,2,3,4,5"})
+    for (const char* text : {"geo:1,2,3,4", "geo:91,2,3,4,5", "geo:1,361,3,4,5", "geo:nan,2,3,4,5",
+                             "geo:", "GEO:1,2,3,4,5"})
         EXPECT_THROW((void)parse_pose(text, "--camera"), base::Error) << text;
     const std::string head = "[terrain]\nelevation='h'\n";
-    Scene scene = parse_scene(head + "[camera.a]\ngeo=[1,2,3]\n[path.p]\nkeys=[{t=0,geo=[1,2,3]},{t=1,position=[7,8,9]}]\n"
-                                     "[[object]]\nkind='sphere'\ngeo=[3,4,0]\n", "s.toml");
-    const PlaceOnEarth ten_times = [](double latitude, double longitude) { return glm::dvec2(longitude * 10, -latitude * 10); };
+    Scene scene = parse_scene(
+        head +
+            "[camera.a]\ngeo=[1,2,3]\n[path.p]\nkeys=[{t=0,geo=[1,2,3]},{t=1,position=[7,8,9]}]\n"
+            "[[object]]\nkind='sphere'\ngeo=[3,4,0]\n",
+        "s.toml");
+    const PlaceOnEarth ten_times = [](double latitude, double longitude) {
+        return glm::dvec2(longitude * 10, -latitude * 10);
+    };
     settle_places(scene, ten_times);
     EXPECT_EQ(scene.cameras.at("a").position, glm::dvec3(20, 3, -10));
     EXPECT_FALSE(scene.cameras.at("a").geo);
     EXPECT_EQ(scene.paths.at("p").keys[0].position, glm::dvec3(20, 3, -10));
-    EXPECT_EQ(scene.paths.at("p").keys[1].position, glm::dvec3(7, 8, 9)) << "a key does not take the place of the one before";
+    EXPECT_EQ(scene.paths.at("p").keys[1].position, glm::dvec3(7, 8, 9))
+        << "a key does not take the place of the one before";
     EXPECT_EQ(scene.objects[0].position, glm::dvec3(40, 0, -30));
     Pose lost = pose;
-    EXPECT_NE(error_of([&] { settle_place(lost, {}, "--camera"); }, ExitCode::kUsage).find("no place on Earth"), std::string::npos);
+    EXPECT_NE(error_of([&] { settle_place(lost, {}, "--camera"); }, ExitCode::kUsage)
+                  .find("no place on Earth"),
+              std::string::npos);
     lost = parse_pose("geo:80,80,0,0,0", "--camera");
     const PlaceOnEarth far = [](double, double) { return glm::dvec2(5e6, 0); };
-    EXPECT_NE(error_of([&] { settle_place(lost, far, "scene"); }).find("5000 km from"), std::string::npos);
-    EXPECT_THROW((void)parse_scene(head + "[camera.a]\ngeo=[1,2,3]\nposition=[1,2,3]\n", "s.toml"), base::Error);
+    EXPECT_NE(error_of([&] { settle_place(lost, far, "scene"); }).find("5000 km from"),
+              std::string::npos);
+    EXPECT_THROW((void)parse_scene(head + "[camera.a]\ngeo=[1,2,3]\nposition=[1,2,3]\n", "s.toml"),
+                 base::Error);
     EXPECT_THROW((void)parse_scene(head + "[camera.a]\ngeo=[1,2]\n", "s.toml"), base::Error);
     EXPECT_THROW((void)parse_scene(head + "[camera.a]\nyaw_deg=0\n", "s.toml"), base::Error);
 }
@@ -653,9 +694,9 @@ TEST_F(Hgt, FillsVoidsAndRefusesNothingButVoids) {
 
 TEST_F(Hgt, RefusesWrongSizesAndNames) {
     put(dir_ / "N36W085.hgt", std::string(1000, 'x'));
-    EXPECT_NE(error_of([&] {
-                  (void)read_hgt(dir_ / "N36W085.hgt");
-              }).find("not an .hgt tile: found 1000 bytes, expected 2884802 bytes (1201 x 1201 posts), 25934402 (3601 x 3601)"),
+    EXPECT_NE(error_of([&] { (void)read_hgt(dir_ / "N36W085.hgt"); })
+                  .find("not an .hgt tile: found 1000 bytes, expected 2884802 bytes (1201 x 1201 "
+                        "posts), 25934402 (3601 x 3601)"),
               std::string::npos);
     put(dir_ / "N37W085.hgt", "");
     EXPECT_NE(error_of([&] { (void)read_hgt(dir_ / "N37W085.hgt"); }).find("found 0 bytes"),
@@ -728,7 +769,11 @@ TEST(Ppm, WritesTheBytesAndRefusesAMismatch) {
               std::string("P6\n2 1\n255\n\x01\x02\x03\xff\x00\x09", 17));
     EXPECT_THROW(write_ppm(dir / "bad.ppm", {2, 2, {1, 2, 3}}), std::logic_error);
     EXPECT_FALSE(fs::exists(dir / "bad.ppm"));
-    EXPECT_NE(error_of([&] { write_ppm(dir / "missing/a.ppm", {1, 1, {1, 2, 3}}); }, ExitCode::kIo)
+    EXPECT_NE(error_of(
+                  [&] {
+                      write_ppm(dir / "missing/a.ppm", {1, 1, {1, 2, 3}});
+                  },
+                  ExitCode::kIo)
                   .find("expected a directory that exists"),
               std::string::npos);
 }

@@ -113,17 +113,20 @@ TEST(Bend, IntensityRisesAsTheSquareAndSaturates) {
         before = here;
     }
     EXPECT_LE(bend_intensity(1e6f, 0.1f), 1.0f);
-    // Drag: twice the wind bends four times as much, while blades still stand against it; later much less.
+    // Drag: twice the wind bends four times as much, while blades still stand against it; later
+    // much less.
     EXPECT_NEAR(bend_intensity(0.4f, 0.1f) / bend_intensity(0.2f, 0.1f), 4.0f, 0.02f);
     EXPECT_LT(bend_intensity(40.0f, 0.1f) / bend_intensity(20.0f, 0.1f), 1.35f);
 }
 
-/// Tip angle over 90 degrees of an elastic fibre clamped in a cross flow, and its Cauchy number (drag of the upright fibre times
-/// length cubed over stiffness). Marched from the free tip, which stands at `tip` (rad): force, moment and angle down to the root.
+/// Tip angle over 90 degrees of an elastic fibre clamped in a cross flow, and its Cauchy number
+/// (drag of the upright fibre times length cubed over stiffness). Marched from the free tip, which
+/// stands at `tip` (rad): force, moment and angle down to the root.
 glm::dvec2 fibre(double tip) {
     double angle = tip, moment = 0, along = 0, up = 0, s = 0;
     for (const double step = 5e-4; angle > 0; s += step) {
-        const double drag = std::cos(angle) * std::cos(angle); // square to the fibre: of the wind's component there
+        const double drag =
+            std::cos(angle) * std::cos(angle); // square to the fibre: of the wind's component there
         along += drag * std::cos(angle) * step;
         up -= drag * std::sin(angle) * step;
         moment += (along * std::cos(angle) - up * std::sin(angle)) * step;
@@ -135,7 +138,8 @@ glm::dvec2 fibre(double tip) {
 TEST(Bend, IntensityIsAnElasticFibresInDrag) {
     for (const double tip : {0.1, 0.2, 0.4, 0.8, 1.2, 1.4, 1.5}) {
         const glm::dvec2 found = fibre(tip);
-        const float speed = static_cast<float>(std::sqrt(0.159 * found.y)); // I starts as Cauchy's / (3 pi)
+        const float speed =
+            static_cast<float>(std::sqrt(0.159 * found.y)); // I starts as Cauchy's / (3 pi)
         EXPECT_NEAR(bend_intensity(speed, 1.0f), found.x, 0.06) << tip;
     }
 }
@@ -189,7 +193,8 @@ TEST(Bend, GroupedAndShellPutAnUprightTipAtOnePlace) {
             const vec2 wind = speed * vec2(0.8f, 0.6f);
             const vec3 shell = bend_offset(stem, 0.3f, wind, 0.1f);
             EXPECT_GT(shell.x, 0.0f);
-            EXPECT_LT(glm::length(grouped_offset(stem, vec2(stem, 0.3f), wind, 0.1f) - shell), 1e-6f);
+            EXPECT_LT(glm::length(grouped_offset(stem, vec2(stem, 0.3f), wind, 0.1f) - shell),
+                      1e-6f);
         }
     }
 }
@@ -197,8 +202,8 @@ TEST(Bend, GroupedAndShellPutAnUprightTipAtOnePlace) {
 /// Flutter of a blade of 0.28 m at this time, in periods.
 vec3 flutter_of(double time_s, float speed, float rank = 0.3f) {
     const double periods = time_s / kFlutterPeriod_s;
-    return flutter_at(static_cast<float>(periods - std::floor(periods)), vec4(0.28f, 0.6f, rank, 0.7f),
-                      flutter_amplitude(speed, 0.17f));
+    return flutter_at(static_cast<float>(periods - std::floor(periods)),
+                      vec4(0.28f, 0.6f, rank, 0.7f), flutter_amplitude(speed, 0.17f));
 }
 
 TEST(Flutter, StillInCalmGrowsWithTheWindAndSaturates) {
@@ -222,7 +227,8 @@ TEST(Flutter, IsAsFineAfterDaysAndHasNoSeam) {
         double fastest = 0;
         for (int i = 0; i < 400; ++i) {
             const double time = start + 1e-4 * i;
-            fastest = std::max<double>(fastest, glm::length(flutter_of(time + 1e-4, 20) - flutter_of(time, 20)));
+            fastest = std::max<double>(
+                fastest, glm::length(flutter_of(time + 1e-4, 20) - flutter_of(time, 20)));
         }
         EXPECT_GT(fastest, 1e-5) << start; // moves
         EXPECT_LT(fastest, 2e-3) << start; // without a jump: 0.4 rad at some 4 Hz
@@ -231,8 +237,9 @@ TEST(Flutter, IsAsFineAfterDaysAndHasNoSeam) {
 }
 
 TEST(Flutter, EachBladeHasItsOwnBeat) {
-    EXPECT_GT(flutter_cycles(0.18f, 0.6f), 2 * flutter_cycles(0.34f, 0.6f)); // short ones are quicker
-    EXPECT_GT(flutter_cycles(0.3f, 0.8f), flutter_cycles(0.3f, 0.35f));      // and stiff ones
+    EXPECT_GT(flutter_cycles(0.18f, 0.6f),
+              2 * flutter_cycles(0.34f, 0.6f));                         // short ones are quicker
+    EXPECT_GT(flutter_cycles(0.3f, 0.8f), flutter_cycles(0.3f, 0.35f)); // and stiff ones
     EXPECT_NEAR(flutter_cycles(0.27f, 0.6f) / kFlutterPeriod_s, 2.6f, 0.1f);
     EXPECT_EQ(flutter_cycles(0.01f, 1.0f) / kFlutterPeriod_s, 9.0f);
     // Blades of one length are spread over the beat at every moment.
@@ -350,13 +357,14 @@ TEST(Blade, OutlineTapersAboutTheMiddle) {
 TEST(Blade, AHeadStandsOnItsStalk) {
     const BladeOutline flower{8, 0.1f, 0.8f, 0.5f};
     EXPECT_NEAR(blade_width_at(0.4f, flower), 0.1f, 1e-3f);
-    EXPECT_NEAR(blade_width_at(0.9f, flower), 1, 1e-6f); // the head's middle
+    EXPECT_NEAR(blade_width_at(0.9f, flower), 1, 1e-6f);                 // the head's middle
     EXPECT_NEAR(blade_width_at(0.85f, flower), std::sqrt(0.75f), 1e-5f); // an ellipse
     EXPECT_NEAR(blade_width_at(1, flower), 0, 1e-3f);
     // Half of a mesh's stations stand on the head, in rising order.
     EXPECT_FLOAT_EQ(blade_station(0.5f, flower), 0.8f);
     for (int i = 0; i < 16; ++i)
-        EXPECT_LT(blade_station(static_cast<float>(i) / 16, flower), blade_station(static_cast<float>(i + 1) / 16, flower));
+        EXPECT_LT(blade_station(static_cast<float>(i) / 16, flower),
+                  blade_station(static_cast<float>(i + 1) / 16, flower));
     EXPECT_FLOAT_EQ(blade_station(0.3f, {2, 1, 1, 1}), 0.3f);
 }
 

@@ -16,7 +16,8 @@ constexpr float kSide = 2;
 
 vec3 front_of(const BladeRecord& blade, float v) {
     const vec3 v1(blade.v1), v2(blade.v2);
-    return glm::normalize(glm::cross(blade_tangent(v1, v2, v), blade_width_direction(blade.shape.x)));
+    return glm::normalize(
+        glm::cross(blade_tangent(v1, v2, v), blade_width_direction(blade.shape.x)));
 }
 
 BladeRecord some_blade() {
@@ -42,13 +43,17 @@ TEST(TileLie, ABladeIsMirroredAndTurnedAsAWhole) {
     for (uint lie = 0; lie < 512; ++lie) {
         const BladeRecord laid = lay_blade(lie, blade, kSide);
         const vec3 front = front_of(blade, 0.4f), turned = front_of(laid, 0.4f);
-        EXPECT_LT(glm::length(vec2(turned.x, turned.z) - lie_along(lie, vec2(front.x, front.z))), 1e-5f) << lie;
+        EXPECT_LT(glm::length(vec2(turned.x, turned.z) - lie_along(lie, vec2(front.x, front.z))),
+                  1e-5f)
+            << lie;
         EXPECT_NEAR(turned.y, front.y, 1e-5f) << lie; // its upper side stays above
         EXPECT_NEAR(glm::length(vec3(laid.v2)), glm::length(vec3(blade.v2)), 1e-6f);
         EXPECT_EQ(laid.v2.y, blade.v2.y);
         EXPECT_EQ(laid.root.z, blade.root.z); // rank and seed: it stays the blade that it is
         EXPECT_EQ(laid.root.w, blade.root.w);
-        EXPECT_TRUE(laid.root.x >= 0 && laid.root.x <= kSide && laid.root.y >= 0 && laid.root.y <= kSide) << lie;
+        EXPECT_TRUE(laid.root.x >= 0 && laid.root.x <= kSide && laid.root.y >= 0 &&
+                    laid.root.y <= kSide)
+            << lie;
     }
     const BladeRecord same = lay_blade(kLieAsGrown, blade, kSide);
     EXPECT_NEAR(same.root.x, blade.root.x, 1e-6f);
@@ -64,12 +69,14 @@ TEST(TileLie, ItsTextureShowsTheBladeWhereItStands) {
     }
 }
 
-// Power of a row of tiles at the n-th harmonic of the patch's period over that of a plain row of as many strangers.
+// Power of a row of tiles at the n-th harmonic of the patch's period over that of a plain row of as
+// many strangers.
 double harmonic(int n, bool laid) {
     constexpr int kTiles = 48, kPoints = 40;
     std::vector<vec2> points;
     for (int i = 0; i < kPoints; ++i) {
-        points.emplace_back(hash_to_unit(hash_ivec2({i, 1}, 7)), hash_to_unit(hash_ivec2({i, 2}, 7)));
+        points.emplace_back(hash_to_unit(hash_ivec2({i, 1}, 7)),
+                            hash_to_unit(hash_ivec2({i, 2}, 7)));
     }
     std::complex<double> sum = 0;
     for (int z = 0; z < kTiles; ++z) {

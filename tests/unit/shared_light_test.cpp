@@ -100,7 +100,8 @@ TEST(Sway, CalmChangesNothingAndGalesStayWithinReason) {
     const shared::GrassAppearance look = tests::grass_look();
     std::mt19937 random(4);
     std::uniform_real_distribution<float> unit(0, 1);
-    const float grey = glm::dot(glm::mix(look.root, look.tip, 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
+    const float grey =
+        glm::dot(glm::mix(look.root, look.tip, 0.75f), vec3(0.2126f, 0.7152f, 0.0722f));
     float lowest = 2, highest = 0, farthest = 0;
     for (int n = 0; n < 5000; ++n) {
         const auto direction = [&](float up) {
@@ -115,9 +116,11 @@ TEST(Sway, CalmChangesNothingAndGalesStayWithinReason) {
         const vec2 bent = canopy_sway(look, turn, sun, to_eye);
         // The mean over the blades keeps within kSwayRange of the calm one's.
         const Light light = tests::daylight(sun);
-        const float shadow = canopy_sun(light_in_sway(light, {1, bent.y}), shared::kSeenHeight, sun.y) /
-                             canopy_sun(light, shared::kSeenHeight, sun.y);
-        const float kept = bent.x * shadow * std::exp(-shared::kSwayLoss * (1 - turn.y)) * mean_sunlit(look, grey, turn, sun, to_eye) /
+        const float shadow =
+            canopy_sun(light_in_sway(light, {1, bent.y}), shared::kSeenHeight, sun.y) /
+            canopy_sun(light, shared::kSeenHeight, sun.y);
+        const float kept = bent.x * shadow * std::exp(-shared::kSwayLoss * (1 - turn.y)) *
+                           mean_sunlit(look, grey, turn, sun, to_eye) /
                            mean_sunlit(look, grey, vec3(0, 1, 0), sun, to_eye);
         EXPECT_LE(std::abs(std::log(kept)), 1.001f * shared::kSwayRange);
         farthest = std::max(farthest, std::abs(std::log(kept)));
@@ -143,7 +146,8 @@ TEST(Sway, BladesAcrossTheLightShadowAndAlongItLetThrough) {
     EXPECT_GT(along.x, across.x);
     const Light light = tests::daylight(sun);
     EXPECT_GT(canopy_sun(light_in_sway(light, along), 0.3f, sun.y), canopy_sun(light, 0.3f, sun.y));
-    EXPECT_LT(canopy_sun(light_in_sway(light, across), 0.3f, sun.y), canopy_sun(light, 0.3f, sun.y));
+    EXPECT_LT(canopy_sun(light_in_sway(light, across), 0.3f, sun.y),
+              canopy_sun(light, 0.3f, sun.y));
     EXPECT_EQ(light_in_sway(light, vec2(1)).sun, light.sun);
     EXPECT_EQ(light_in_sway(light, vec2(1)).to_sun, light.to_sun);
 }
@@ -192,7 +196,9 @@ TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
     const Light light = tests::daylight(glm::normalize(vec3(0.5f, 0.7f, 0)));
     const auto texels = shells::canopy_table(set.far_light, light, {0, 0, 0, 0.1f});
     constexpr int last = shells::FarAppearance::kElevations - 1;
-    const auto coverage = [&](int row) { return texels[static_cast<std::size_t>(row * shells::FarAppearance::kAzimuths)].a; };
+    const auto coverage = [&](int row) {
+        return texels[static_cast<std::size_t>(row * shells::FarAppearance::kAzimuths)].a;
+    };
     EXPECT_FLOAT_EQ(coverage(0), set.far[2].coverage);
     EXPECT_FLOAT_EQ(coverage(3), set.far[2].coverage); // sine 0.13 is below 10 degrees
     EXPECT_EQ(coverage(last), set.far[0].coverage);
@@ -205,7 +211,9 @@ TEST(FarTable, CoverageRunsSmoothlyThroughTheRowsAndHoldsBelow) {
 
 TEST(FarTable, PublishedSharesAreWholeShellsAndSlicesNearGrazing) {
     const shared::FarShares shares = shells::published_shares();
-    const auto row = [](float degrees) { return static_cast<int>(degrees / 90 * shared::kShareSteps); };
+    const auto row = [](float degrees) {
+        return static_cast<int>(degrees / 90 * shared::kShareSteps);
+    };
     EXPECT_EQ(shares.steps[row(90)].shells, glm::vec4(1));
     EXPECT_EQ(shares.steps[row(0)].shells, glm::vec4(1));
     EXPECT_EQ(shares.steps[row(0)].slices, 1);

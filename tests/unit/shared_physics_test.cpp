@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A blade's step (J4), what keeps it a blade (J5) and colliders (J6), on the very functions that the shaders run.
+// A blade's step (J4), what keeps it a blade (J5) and colliders (J6), on the very functions that
+// the shaders run.
 #include <cmath>
 #include <limits>
 #include <random>
@@ -15,12 +16,17 @@ namespace {
 constexpr float kStep_s = 1.0f / 60, kCanopy_m = 0.35f, kResponse = 0.16f;
 
 BladeRecord record_of(float stem, float azimuth, vec2 lean_turn, float stiffness) {
-    const auto toward = [&](float angle) { return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle), std::sin(angle) * std::sin(azimuth)); };
-    const vec3 v1 = toward(lean_turn.x) * (0.5f * stem), v2 = v1 + toward(lean_turn.x + lean_turn.y) * (0.5f * stem);
+    const auto toward = [&](float angle) {
+        return vec3(std::sin(angle) * std::cos(azimuth), std::cos(angle),
+                    std::sin(angle) * std::sin(azimuth));
+    };
+    const vec3 v1 = toward(lean_turn.x) * (0.5f * stem),
+               v2 = v1 + toward(lean_turn.x + lean_turn.y) * (0.5f * stem);
     BladeRecord blade{};
     blade.v1 = vec4(v1, 0.003f);
     blade.v2 = vec4(v2, stiffness);
-    blade.shape = {azimuth + 1.5708f, static_cast<float>(measured_length(v1, v2)), 0.3f * stiffness, 0};
+    blade.shape = {azimuth + 1.5708f, static_cast<float>(measured_length(v1, v2)), 0.3f * stiffness,
+                   0};
     return blade;
 }
 
@@ -35,8 +41,10 @@ BladeRecord random_record(std::mt19937& random) {
 
 /// A blade and its state, stepped as the pass steps it.
 struct Living {
-    explicit Living(const BladeRecord& blade, BladeStep with = plain_blade_step(kStep_s, kCanopy_m, kResponse))
-        : rules(with), body(set_blade_body(rules, blade, vec3(0))), v1(body.calm1), v2(body.calm2) {}
+    explicit Living(const BladeRecord& blade,
+                    BladeStep with = plain_blade_step(kStep_s, kCanopy_m, kResponse))
+        : rules(with), body(set_blade_body(rules, blade, vec3(0))), v1(body.calm1), v2(body.calm2) {
+    }
     void step(vec3 wind = vec3(0)) {
         v2 = state_tip(body, state);
         float eta = state.w;
@@ -90,7 +98,8 @@ TEST(Physics, LengthHoldsTheRootStaysAndNoTipIsUnderGround) {
         Living living(blade);
         for (int i = 0; i < 40; ++i) {
             if (i % 10 == 0) {
-                living.state = vec4(blade.shape.y * vec3(unit(random), unit(random), unit(random)), 0.9f + unit(random));
+                living.state = vec4(blade.shape.y * vec3(unit(random), unit(random), unit(random)),
+                                    0.9f + unit(random));
             }
             living.step(30.0f * vec3(unit(random), 0, unit(random)));
             const double length = measured_length(living.v1, living.v2);
@@ -104,7 +113,8 @@ TEST(Physics, LengthHoldsTheRootStaysAndNoTipIsUnderGround) {
     RecordProperty("worst", std::to_string(worst));
     // On the whole curve, as printed, the same estimate would miss that by far.
     const vec3 bent1(0, 0.1f, 0), bent2(0.09f, 0.02f, 0);
-    const double printed = (2 * glm::length(bent2) + glm::length(bent1) + glm::distance(bent1, bent2)) / 3;
+    const double printed =
+        (2 * glm::length(bent2) + glm::length(bent1) + glm::distance(bent1, bent2)) / 3;
     EXPECT_GT(std::abs(printed / measured_length(bent1, bent2) - 1), 0.02);
     EXPECT_LT(std::abs(bezier_length(bent1, bent2) / measured_length(bent1, bent2) - 1), 0.01);
 }
@@ -136,9 +146,13 @@ TEST(Physics, WindHoldsAnUprightBladeWhereTheGroupedTierPutsIt) {
                 for (int i = 0; i < 600; ++i) {
                     living.step(vec3(0.6f, 0, 0.8f) * speed);
                 }
-                const vec3 grouped = vec3(0, stem, 0) + grouped_offset(stem, {stem, kCanopy_m}, vec2(0.6f, 0.8f) * speed, living.body.response);
-                const float turned = std::acos(std::min(glm::dot(glm::normalize(grouped), glm::normalize(living.v2)), 1.0f));
-                EXPECT_LT(turned, 0.012f) << stem << " m, stiffness " << stiffness << ", " << speed << " m/s"; // 0.7 degrees
+                const vec3 grouped = vec3(0, stem, 0) + grouped_offset(stem, {stem, kCanopy_m},
+                                                                       vec2(0.6f, 0.8f) * speed,
+                                                                       living.body.response);
+                const float turned = std::acos(
+                    std::min(glm::dot(glm::normalize(grouped), glm::normalize(living.v2)), 1.0f));
+                EXPECT_LT(turned, 0.012f) << stem << " m, stiffness " << stiffness << ", " << speed
+                                          << " m/s"; // 0.7 degrees
                 EXPECT_LT(glm::distance(grouped, living.v2), 0.06f * stem);
             }
         }
@@ -152,15 +166,19 @@ TEST(Physics, RecoversInTheTimeThatItsParametersImply) {
             BladeStep weightless = plain_blade_step(kStep_s, kCanopy_m, kResponse);
             weightless.gravity_mps2 = 0;
             Living living(record_of(0.25f, 0, vec2(0), stiffness), weightless);
-            vec3 aside(0.02f, 0.249f, 0); // a small lean: J5.3 hardly acts, and the closed form holds
+            vec3 aside(0.02f, 0.249f,
+                       0); // a small lean: J5.3 hardly acts, and the closed form holds
             settle_blade(living.body, aside);
             living.state = vec4(aside - living.body.calm2, eta);
-            const float start = living.offset(), expected = recovery_time(living.body.recovery, eta, kMemoryLoss, 0.1f);
+            const float start = living.offset(),
+                        expected = recovery_time(living.body.recovery, eta, kMemoryLoss, 0.1f);
             int steps = 0;
             for (; living.offset() > 0.1f * start && steps < 6000; ++steps) {
                 living.step();
             }
-            EXPECT_NEAR(static_cast<float>(steps) * kStep_s, expected, 0.06f * expected + 2 * kStep_s) << stiffness << " " << eta;
+            EXPECT_NEAR(static_cast<float>(steps) * kStep_s, expected,
+                        0.06f * expected + 2 * kStep_s)
+                << stiffness << " " << eta;
             shortest = std::min(shortest, expected);
             longest = std::max(longest, expected);
         }
@@ -202,17 +220,21 @@ TEST_P(Collide, NoBladeIsInsideByMoreThanTwoPercent) {
         bool felt = false;
         const BladeRecord blade = random_record(random);
         Living living(blade);
-        const float stem = blade.shape.y, way = 6.2831853f * unit(random), side = (2 * unit(random) - 1) * (radius + stem);
+        const float stem = blade.shape.y, way = 6.2831853f * unit(random),
+                    side = (2 * unit(random) - 1) * (radius + stem);
         const vec3 ahead(std::cos(way), 0, std::sin(way)), across(-ahead.z, 0, ahead.x);
         const float start = 1 + radius;
         const vec3 wind = 6.0f * vec3(unit(random) - 0.5f, 0, unit(random) - 0.5f);
-        vec3 before = side * across - start * ahead + vec3(0, radius * (1 + 0.3f * unit(random)), 0);
+        vec3 before =
+            side * across - start * ahead + vec3(0, radius * (1 + 0.3f * unit(random)), 0);
         const int steps = static_cast<int>(2 * start / (speed * kStep_s)) + 2;
         for (int i = 0; i < steps; ++i) {
             const vec3 now = before + speed * kStep_s * ahead;
             living.step(wind, {{vec4(now, radius), before}});
-            deepest = std::max<double>(deepest, blade_depth(living.v1, living.v2, vec4(now, radius)) / stem);
-            worst_length = std::max(worst_length, std::abs(measured_length(living.v1, living.v2) / stem - 1));
+            deepest = std::max<double>(deepest,
+                                       blade_depth(living.v1, living.v2, vec4(now, radius)) / stem);
+            worst_length =
+                std::max(worst_length, std::abs(measured_length(living.v1, living.v2) / stem - 1));
             ASSERT_GE(living.v2.y, 0.0f);
             before = now;
             felt |= living.state.w > 0;
@@ -223,8 +245,10 @@ TEST_P(Collide, NoBladeIsInsideByMoreThanTwoPercent) {
     EXPECT_LT(worst_length, 0.01);
     EXPECT_GT(touched, 40);
 }
-INSTANTIATE_TEST_SUITE_P(Balls, Collide, testing::Values(Roll{0.5f, 0.06f}, Roll{0.5f, 0.3f}, Roll{0.5f, 1.0f}, Roll{2, 0.15f}, Roll{2, 0.3f},
-                                                         Roll{8, 0.3f}, Roll{30, 0.3f}, Roll{30, 1.0f}));
+INSTANTIATE_TEST_SUITE_P(Balls, Collide,
+                         testing::Values(Roll{0.5f, 0.06f}, Roll{0.5f, 0.3f}, Roll{0.5f, 1.0f},
+                                         Roll{2, 0.15f}, Roll{2, 0.3f}, Roll{8, 0.3f},
+                                         Roll{30, 0.3f}, Roll{30, 1.0f}));
 
 TEST(Physics, AFastBallDoesNotTunnel) {
     // 120 m/s: 2 m a step, past a blade of 0.25 m that is never inside it at a step's end.
@@ -246,9 +270,13 @@ TEST(Physics, ManyCollidersAtOnceLeaveABladeFree) {
         std::vector<std::pair<vec4, vec3>> body; // a packed body that comes down beside the blade
         for (int i = 0; i < 12; ++i) {
             const float radius = 0.08f + 0.1f * unit(random);
-            body.push_back({vec4(0.1f + 0.6f * unit(random), radius + 0.15f * unit(random), 0.5f * unit(random) - 0.25f, radius), vec3(0)});
+            body.push_back({vec4(0.1f + 0.6f * unit(random), radius + 0.15f * unit(random),
+                                 0.5f * unit(random) - 0.25f, radius),
+                            vec3(0)});
         }
-        std::erase_if(body, [](const auto& s) { return glm::length(vec3(s.first)) < s.first.w * 1.02f; }); // never over the root itself
+        std::erase_if(body, [](const auto& s) {
+            return glm::length(vec3(s.first)) < s.first.w * 1.02f;
+        }); // never over the root itself
         const std::vector<std::pair<vec4, vec3>> at_rest = [&] {
             auto out = body;
             for (auto& s : out) {
@@ -270,16 +298,19 @@ TEST(Physics, ManyCollidersAtOnceLeaveABladeFree) {
         }
         double deepest = 0;
         for (const auto& s : at_rest) {
-            deepest = std::max<double>(deepest, blade_depth(living.v1, living.v2, s.first) / blade.shape.y);
+            deepest = std::max<double>(deepest,
+                                       blade_depth(living.v1, living.v2, s.first) / blade.shape.y);
         }
         EXPECT_LT(deepest, 0.02) << n;
     }
 }
 
 TEST(Physics, WhatCannotBeLeavesABladeWhole) {
-    const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+    const float nan = std::numeric_limits<float>::quiet_NaN(),
+                inf = std::numeric_limits<float>::infinity();
     const BladeRecord blade = record_of(0.25f, 1, {0.2f, 0.3f}, 0.5f);
-    for (const vec4& broken : {vec4(nan, 0, 0, 0), vec4(0, 0, 0, nan), vec4(inf, 0, 0, 1), vec4(1e30f), vec4(0, 0, 0, -1)}) {
+    for (const vec4& broken : {vec4(nan, 0, 0, 0), vec4(0, 0, 0, nan), vec4(inf, 0, 0, 1),
+                               vec4(1e30f), vec4(0, 0, 0, -1)}) {
         Living living(blade);
         living.state = broken;
         living.step();
@@ -288,20 +319,24 @@ TEST(Physics, WhatCannotBeLeavesABladeWhole) {
     }
     EXPECT_EQ(checked_wind(vec3(nan, 0, 0)), vec3(0));
     EXPECT_EQ(checked_wind(vec3(inf, 0, 0)), vec3(0));
-    // A ball under the ground that holds the root, one that holds the whole blade, one about the tip itself.
-    for (const vec4& ball : {vec4(0, -0.2f, 0, 0.35f), vec4(0, 0, 0, 2), vec4(vec3(blade.v2), 0.1f)}) {
+    // A ball under the ground that holds the root, one that holds the whole blade, one about the
+    // tip itself.
+    for (const vec4& ball :
+         {vec4(0, -0.2f, 0, 0.35f), vec4(0, 0, 0, 2), vec4(vec3(blade.v2), 0.1f)}) {
         Living living(blade);
         for (int i = 0; i < 30; ++i) {
             living.step(vec3(3, 0, 0), {{ball, vec3(ball)}});
             ASSERT_TRUE(std::isfinite(glm::dot(living.state, living.state)));
             ASSERT_GE(living.v2.y, 0.0f);
-            ASSERT_NEAR(measured_length(living.v1, living.v2), blade.shape.y, 0.01f * blade.shape.y);
+            ASSERT_NEAR(measured_length(living.v1, living.v2), blade.shape.y,
+                        0.01f * blade.shape.y);
         }
     }
     // No length: it stands where its root is.
     BladeRecord none{};
     none.v2.w = 0.5f;
-    const BladeBody body = set_blade_body(plain_blade_step(kStep_s, kCanopy_m, kResponse), none, vec3(0));
+    const BladeBody body =
+        set_blade_body(plain_blade_step(kStep_s, kCanopy_m, kResponse), none, vec3(0));
     EXPECT_FALSE(blade_moves(body));
     EXPECT_EQ(grouped_state(body, vec2(5, 0), kResponse), vec4(0));
     vec3 v1(1), v2(1);

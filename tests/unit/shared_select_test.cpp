@@ -115,7 +115,8 @@ protected:
         for (const glm::uvec2& item : list.items) {
             const shared::BladeTile& tile = list.tiles[item.x];
             for (std::uint32_t b = item.y; b < std::min(item.y + CULL_GROUP, tile.end); ++b) {
-                EXPECT_TRUE(out.emplace(tile.corner.x, tile.corner.y, b).second) << "a blade listed twice";
+                EXPECT_TRUE(out.emplace(tile.corner.x, tile.corner.y, b).second)
+                    << "a blade listed twice";
             }
         }
         return out;
@@ -143,7 +144,8 @@ protected:
             const glm::vec2 place(corner - glm::dvec2(query_.anchor.x, query_.anchor.z));
             for (std::uint32_t b = set_.variant_begin[variant]; b < set_.variant_begin[variant + 1];
                  ++b) {
-                const shared::BladeRecord blade = shared::lay_blade(shared::tile_lie(tile), set_.blades[b], set_.side_m);
+                const shared::BladeRecord blade =
+                    shared::lay_blade(shared::tile_lie(tile), set_.blades[b], set_.side_m);
                 if (wanted(corner + glm::dvec2(blade.root), blade, clip)) {
                     ++near;
                     EXPECT_TRUE(in_list.count({place.x, place.y, b}))
@@ -246,7 +248,7 @@ TEST_F(FarInstances, EverySlicePlaneOfABlockIsThereOnce) {
         const int expected = static_cast<int>(in_patch / set_.side_m * slices);
         EXPECT_EQ(slice.image, shared::slice_index(0, axis, expected, slices, shared::kPlaneId));
         EXPECT_EQ(slice.planes, shared::slice_index(1, axis, expected, slices, 0) -
-                                     shared::slice_index(0, axis, expected, slices, 0));
+                                    shared::slice_index(0, axis, expected, slices, 0));
     }
     EXPECT_EQ(count.size(), 6u);
     for (const auto& [key, n] : count) {

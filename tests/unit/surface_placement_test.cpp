@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grass on meshes: how many blades, how even, tufts apart, clusters full and compact, blades on the surface, meshes that are
-// refused (J1 to J3).
+// Grass on meshes: how many blades, how even, tufts apart, clusters full and compact, blades on the
+// surface, meshes that are refused (J1 to J3).
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -30,7 +30,8 @@ void add_triangle(Mesh& mesh, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
     mesh.triangles.push_back({first, first + 1, first + 2});
 }
 
-/// A sheet over 4 m x 2 m that rises and falls; vertices of neighbours are apart, as glTF often has them.
+/// A sheet over 4 m x 2 m that rises and falls; vertices of neighbours are apart, as glTF often has
+/// them.
 Mesh wavy_sheet(int cells) {
     Mesh mesh;
     const auto at = [&](int i, int j) {
@@ -71,7 +72,9 @@ SurfaceGrassSpec spec_of(Placement placement, double density) {
 double area_of(const Mesh& mesh) {
     double sum = 0;
     for (const auto& t : mesh.triangles) {
-        sum += 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t[1]] - mesh.positions[t[0]]), glm::dvec3(mesh.positions[t[2]] - mesh.positions[t[0]])));
+        sum +=
+            0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[t[1]] - mesh.positions[t[0]]),
+                                         glm::dvec3(mesh.positions[t[2]] - mesh.positions[t[0]])));
     }
     return sum;
 }
@@ -96,7 +99,8 @@ double off_surface(const Mesh& mesh, glm::dvec3 p) {
         if (nn == 0) {
             continue;
         }
-        const double v = glm::dot(glm::cross(p - a, c - a), n) / nn, w = glm::dot(glm::cross(b - a, p - a), n) / nn;
+        const double v = glm::dot(glm::cross(p - a, c - a), n) / nn,
+                     w = glm::dot(glm::cross(b - a, p - a), n) / nn;
         if (v >= -1e-4 && w >= -1e-4 && v + w <= 1 + 1e-4) {
             least = std::min(least, std::abs(glm::dot(p - a, n)) / std::sqrt(nn));
         }
@@ -106,20 +110,24 @@ double off_surface(const Mesh& mesh, glm::dvec3 p) {
 
 TEST(SurfacePlacement, CountIsDensityTimesArea) {
     for (const Mesh& mesh : {wavy_sheet(12), sphere(12)}) {
-        for (const Placement placement : {Placement::kSingle, Placement::kTufts, Placement::kMixed}) {
+        for (const Placement placement :
+             {Placement::kSingle, Placement::kTufts, Placement::kMixed}) {
             const SurfaceBlades grass = place_surface_grass(mesh, spec_of(placement, 300), "m.glb");
             EXPECT_NEAR(grass.area_m2, area_of(mesh), 1e-9 * grass.area_m2);
-            EXPECT_EQ(grass.blades.size(), static_cast<std::size_t>(std::round(300 * area_of(mesh))));
+            EXPECT_EQ(grass.blades.size(),
+                      static_cast<std::size_t>(std::round(300 * area_of(mesh))));
         }
     }
 }
 
 TEST(SurfacePlacement, SingleBladesAreEvenByArea) {
-    // Triangles of very different areas: a fan whose angles grow. Chi-square of the counts over 40 triangles.
+    // Triangles of very different areas: a fan whose angles grow. Chi-square of the counts over 40
+    // triangles.
     Mesh mesh;
     for (int i = 0; i < 40; ++i) {
         const double a = 0.5 * M_PI * i * i / 1600, b = 0.5 * M_PI * (i + 1) * (i + 1) / 1600;
-        add_triangle(mesh, {0, 0, 0}, {std::cos(b), 0.1 * i, std::sin(b)}, {std::cos(a), 0.1 * i, std::sin(a)});
+        add_triangle(mesh, {0, 0, 0}, {std::cos(b), 0.1 * i, std::sin(b)},
+                     {std::cos(a), 0.1 * i, std::sin(a)});
     }
     const SurfaceArea area(mesh, 180);
     std::vector<int> counts(40);
@@ -127,14 +135,20 @@ TEST(SurfacePlacement, SingleBladesAreEvenByArea) {
     double mean_u = 0;
     for (int i = 0; i < kCount; ++i) {
         const auto n = static_cast<unsigned>(i);
-        const glm::dvec3 u(shared::hash_to_unit(shared::hash_pcg(3 * n)), shared::hash_to_unit(shared::hash_pcg(3 * n + 1)), shared::hash_to_unit(shared::hash_pcg(3 * n + 2)));
+        const glm::dvec3 u(shared::hash_to_unit(shared::hash_pcg(3 * n)),
+                           shared::hash_to_unit(shared::hash_pcg(3 * n + 1)),
+                           shared::hash_to_unit(shared::hash_pcg(3 * n + 2)));
         const SurfacePoint at = area.sample(u);
         ++counts[at.triangle];
-        mean_u += glm::distance(at.place, glm::dvec3(mesh.positions[mesh.triangles[at.triangle][0]]));
+        mean_u +=
+            glm::distance(at.place, glm::dvec3(mesh.positions[mesh.triangles[at.triangle][0]]));
     }
     double chi = 0;
     for (std::uint32_t t = 0; t < 40; ++t) {
-        const double expected = kCount * 0.5 * glm::length(glm::cross(glm::dvec3(mesh.positions[3 * t + 1]), glm::dvec3(mesh.positions[3 * t + 2]))) / area.total_m2();
+        const double expected = kCount * 0.5 *
+                                glm::length(glm::cross(glm::dvec3(mesh.positions[3 * t + 1]),
+                                                       glm::dvec3(mesh.positions[3 * t + 2]))) /
+                                area.total_m2();
         chi += (counts[t] - expected) * (counts[t] - expected) / expected;
     }
     EXPECT_LT(chi, 73.4); // 39 degrees of freedom: once in a thousand
@@ -143,7 +157,8 @@ TEST(SurfacePlacement, SingleBladesAreEvenByArea) {
 TEST(SurfacePlacement, WithinATriangleTheyAreEvenToo) {
     Mesh mesh;
     add_triangle(mesh, {0, 0, 0}, {0, 0, 1}, {1, 0, 0});
-    const SurfaceBlades grass = place_surface_grass(mesh, spec_of(Placement::kSingle, 40000), "m.glb");
+    const SurfaceBlades grass =
+        place_surface_grass(mesh, spec_of(Placement::kSingle, 40000), "m.glb");
     glm::dvec3 mean(0);
     int near_corner = 0; // the quarter at the first corner
     for (const auto& blade : grass.blades) {
@@ -181,12 +196,14 @@ TEST(SurfacePlacement, BladesOfTuftsStayWithTheirCentre) {
     const SurfaceBlades grass = place_surface_grass(mesh, spec, "m.glb");
     const SurfaceArea area(mesh, 180);
     const std::size_t tufts = (grass.blades.size() + 10) / 20;
-    const auto centres = tuft_centres(area, tufts, 0.7 * std::sqrt(area.total_m2() / static_cast<double>(tufts)), 1);
+    const auto centres =
+        tuft_centres(area, tufts, 0.7 * std::sqrt(area.total_m2() / static_cast<double>(tufts)), 1);
     double farthest = 0;
     for (const auto& blade : grass.blades) {
         double nearest = 1e9;
         for (const SurfacePoint& centre : centres) {
-            nearest = std::min(nearest, glm::distance(centre.place, glm::dvec3(blade.root_direction)));
+            nearest =
+                std::min(nearest, glm::distance(centre.place, glm::dvec3(blade.root_direction)));
         }
         farthest = std::max(farthest, nearest);
     }
@@ -200,31 +217,38 @@ TEST(SurfacePlacement, TuftsGatherOrSplay) {
     spec.tuft_blades = 20;
     spec.droop = 0.5;
     const SurfaceArea area(mesh, 180);
-    const auto spread = [&](double gather) { // mean of the way from tip to middle over that from root to middle
-        spec.tuft_gather = gather;
-        const SurfaceBlades grass = place_surface_grass(mesh, spec, "m.glb");
-        const std::size_t tufts = (grass.blades.size() + 10) / 20;
-        const auto centres = tuft_centres(area, tufts, 0.7 * std::sqrt(area.total_m2() / static_cast<double>(tufts)), 1);
-        double tips = 0, roots = 0;
-        for (const auto& blade : grass.blades) {
-            const glm::dvec3 root(blade.root_direction), up(blade.up_stiffness);
-            glm::dvec3 middle = centres[0].place;
-            for (const SurfacePoint& centre : centres) {
-                middle = glm::distance(centre.place, root) < glm::distance(middle, root) ? centre.place : middle;
+    const auto spread =
+        [&](double gather) { // mean of the way from tip to middle over that from root to middle
+            spec.tuft_gather = gather;
+            const SurfaceBlades grass = place_surface_grass(mesh, spec, "m.glb");
+            const std::size_t tufts = (grass.blades.size() + 10) / 20;
+            const auto centres = tuft_centres(
+                area, tufts, 0.7 * std::sqrt(area.total_m2() / static_cast<double>(tufts)), 1);
+            double tips = 0, roots = 0;
+            for (const auto& blade : grass.blades) {
+                const glm::dvec3 root(blade.root_direction), up(blade.up_stiffness);
+                glm::dvec3 middle = centres[0].place;
+                for (const SurfacePoint& centre : centres) {
+                    middle = glm::distance(centre.place, root) < glm::distance(middle, root)
+                                 ? centre.place
+                                 : middle;
+                }
+                const auto flat = [&](glm::dvec3 v) {
+                    return glm::length(v - up * glm::dot(v, up));
+                };
+                roots += flat(root - middle);
+                tips += flat(root + glm::dvec3(blade.v2_width) - middle);
             }
-            const auto flat = [&](glm::dvec3 v) { return glm::length(v - up * glm::dot(v, up)); };
-            roots += flat(root - middle);
-            tips += flat(root + glm::dvec3(blade.v2_width) - middle);
-        }
-        return tips / roots;
-    };
+            return tips / roots;
+        };
     EXPECT_LT(spread(1), spread(0) - 0.3);
     EXPECT_GT(spread(-1), spread(0) + 0.3);
 }
 
 TEST(SurfacePlacement, BladesStandOnTheSurface) {
     for (const Mesh& mesh : {wavy_sheet(10), sphere(8)}) {
-        const SurfaceBlades grass = place_surface_grass(mesh, spec_of(Placement::kMixed, 150), "m.glb");
+        const SurfaceBlades grass =
+            place_surface_grass(mesh, spec_of(Placement::kMixed, 150), "m.glb");
         for (const auto& blade : grass.blades) {
             const glm::dvec3 root(blade.root_direction);
             ASSERT_LT(off_surface(mesh, root), 1e-5) << root.x << ' ' << root.y << ' ' << root.z;
@@ -249,7 +273,8 @@ TEST(SurfacePlacement, AWalkGoesStraightAcrossEdgesAndEndsAtRims) {
     EXPECT_NEAR(glm::distance(end.place, {1, -0.5, 0.6}), 0, 1e-9);
     const SurfacePoint rim = area.walk(start, {1, 0, 0}, 5);
     EXPECT_NEAR(glm::distance(rim.place, {1, -1, 0.6}), 0, 1e-9);
-    const SurfacePoint slanted = area.walk(start, {1, 0, -0.25}, std::sqrt(1.0625) * 1.2); // 0.8 to the edge, 0.4 down
+    const SurfacePoint slanted =
+        area.walk(start, {1, 0, -0.25}, std::sqrt(1.0625) * 1.2); // 0.8 to the edge, 0.4 down
     EXPECT_NEAR(glm::distance(slanted.place, {1, -0.4, 0.3}), 0, 1e-9);
 }
 
@@ -259,15 +284,19 @@ TEST(SurfacePlacement, SlopesKeepGrassOffWalls) {
     const SurfaceBlades grass = place_surface_grass(sphere(16), spec, "m.glb");
     EXPECT_GT(grass.blades.size(), 100u);
     for (const auto& blade : grass.blades) {
-        EXPECT_GT(blade.root_direction.y, std::cos(52 * M_PI / 180)); // a triangle is 11 degrees wide
+        EXPECT_GT(blade.root_direction.y,
+                  std::cos(52 * M_PI / 180)); // a triangle is 11 degrees wide
     }
     spec.slope_deg = 1; // the sphere has no facet that level
-    EXPECT_NE(error_of(sphere(16), spec, base::ExitCode::kBadInput).find("no area that leans at most 1 degrees"), std::string::npos);
+    EXPECT_NE(error_of(sphere(16), spec, base::ExitCode::kBadInput)
+                  .find("no area that leans at most 1 degrees"),
+              std::string::npos);
 }
 
 TEST(SurfacePlacement, ClustersAreFullCompactAndBounded) {
     const Mesh mesh = sphere(16);
-    const SurfaceBlades grass = place_surface_grass(mesh, spec_of(Placement::kMixed, 1234), "m.glb");
+    const SurfaceBlades grass =
+        place_surface_grass(mesh, spec_of(Placement::kMixed, 1234), "m.glb");
     ASSERT_EQ(grass.clusters.size(), (grass.blades.size() + CULL_GROUP - 1) / CULL_GROUP);
     double longest = 0;
     for (std::size_t c = 0; c < grass.clusters.size(); ++c) {
@@ -279,19 +308,23 @@ TEST(SurfacePlacement, ClustersAreFullCompactAndBounded) {
             const auto& blade = grass.blades[i];
             const glm::vec3 root(blade.root_direction);
             for (const float v : {0.0f, 0.3f, 0.7f, 1.0f}) {
-                const glm::vec3 p = root + shared::blade_curve(glm::vec3(blade.v1_height), glm::vec3(blade.v2_width), v);
-                EXPECT_TRUE(glm::all(glm::greaterThanEqual(p, cluster.low)) && glm::all(glm::lessThanEqual(p, cluster.high)));
+                const glm::vec3 p = root + shared::blade_curve(glm::vec3(blade.v1_height),
+                                                               glm::vec3(blade.v2_width), v);
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(p, cluster.low)) &&
+                            glm::all(glm::lessThanEqual(p, cluster.high)));
             }
         }
     }
-    // 128 of 1234 a square metre are a square of 0.32 m; with the reach on every side a box of 1.0 x 1.0 x 0.7 m.
+    // 128 of 1234 a square metre are a square of 0.32 m; with the reach on every side a box of 1.0
+    // x 1.0 x 0.7 m.
     EXPECT_LT(longest, 2.1);
 }
 
 TEST(SurfacePlacement, BalancedOrderIsAPermutationOfCompactRuns) {
     std::vector<glm::vec3> places;
     for (unsigned i = 0; i < 20000; ++i) {
-        places.emplace_back(shared::hash_to_unit(shared::hash_pcg(2 * i)), 0, shared::hash_to_unit(shared::hash_pcg(2 * i + 1)));
+        places.emplace_back(shared::hash_to_unit(shared::hash_pcg(2 * i)), 0,
+                            shared::hash_to_unit(shared::hash_pcg(2 * i + 1)));
     }
     const auto order = balanced_order(places, 128);
     EXPECT_EQ(std::set<std::uint32_t>(order.begin(), order.end()).size(), places.size());
@@ -301,7 +334,8 @@ TEST(SurfacePlacement, BalancedOrderIsAPermutationOfCompactRuns) {
         for (std::size_t i = first; i < first + 128; ++i) {
             low = glm::min(low, places[order[i]]);
             high = glm::max(high, places[order[i]]);
-            steps += i > first ? glm::distance(places[order[i]], places[order[i - 1]]) / (156 * 127) : 0;
+            steps +=
+                i > first ? glm::distance(places[order[i]], places[order[i - 1]]) / (156 * 127) : 0;
         }
         sides += std::max(high.x - low.x, high.z - low.z) / 156;
     }
@@ -313,7 +347,8 @@ TEST(SurfacePlacement, BalancedOrderIsAPermutationOfCompactRuns) {
 TEST(SurfacePlacement, TheSameSeedGivesTheSameBytes) {
     const Mesh mesh = sphere(10);
     SurfaceGrassSpec spec = spec_of(Placement::kMixed, 300);
-    const auto a = place_surface_grass(mesh, spec, "m.glb").blades, b = place_surface_grass(mesh, spec, "m.glb").blades;
+    const auto a = place_surface_grass(mesh, spec, "m.glb").blades,
+               b = place_surface_grass(mesh, spec, "m.glb").blades;
     ASSERT_EQ(a.size(), b.size());
     EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])), 0);
     spec.seed = 2;
@@ -324,21 +359,29 @@ TEST(SurfacePlacement, TheSameSeedGivesTheSameBytes) {
 TEST(SurfacePlacement, DegenerateMeshesAreRefused) {
     using base::ExitCode;
     const SurfaceGrassSpec spec = spec_of(Placement::kMixed, 100);
-    EXPECT_EQ(error_of(Mesh(), spec, ExitCode::kBadInput), "m.glb: surface: found no triangles, expected a mesh with a surface");
+    EXPECT_EQ(error_of(Mesh(), spec, ExitCode::kBadInput),
+              "m.glb: surface: found no triangles, expected a mesh with a surface");
     Mesh flat;
     add_triangle(flat, {0, 0, 0}, {1, 0, 0}, {2, 0, 0});
-    EXPECT_EQ(error_of(flat, spec, ExitCode::kBadInput), "m.glb: surface: found no area, expected a mesh with a surface");
+    EXPECT_EQ(error_of(flat, spec, ExitCode::kBadInput),
+              "m.glb: surface: found no area, expected a mesh with a surface");
     Mesh nan = wavy_sheet(2);
     nan.positions[3].y = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(error_of(nan, spec, ExitCode::kBadInput), "m.glb: surface: found vertex 3 that is not finite, expected finite numbers");
+    EXPECT_EQ(error_of(nan, spec, ExitCode::kBadInput),
+              "m.glb: surface: found vertex 3 that is not finite, expected finite numbers");
     Mesh outside = wavy_sheet(2);
     outside.triangles[1][2] = 99999;
-    EXPECT_EQ(error_of(outside, spec, ExitCode::kBadInput), "m.glb: surface: found index 99999, expected one of the vertices");
+    EXPECT_EQ(error_of(outside, spec, ExitCode::kBadInput),
+              "m.glb: surface: found index 99999, expected one of the vertices");
     Mesh many = wavy_sheet(1);
     many.triangles.resize(kMostSurfaceTriangles + 1, many.triangles[0]);
-    EXPECT_EQ(error_of(many, spec, ExitCode::kOverLimit), "m.glb: surface: found 10000001 triangles, expected at most 10000000");
-    const std::string dense = error_of(wavy_sheet(4), spec_of(Placement::kSingle, 1e7), ExitCode::kOverLimit);
-    EXPECT_NE(dense.find("expected at most 10000000; surface_grass.density_per_m2 makes it less"), std::string::npos) << dense;
+    EXPECT_EQ(error_of(many, spec, ExitCode::kOverLimit),
+              "m.glb: surface: found 10000001 triangles, expected at most 10000000");
+    const std::string dense =
+        error_of(wavy_sheet(4), spec_of(Placement::kSingle, 1e7), ExitCode::kOverLimit);
+    EXPECT_NE(dense.find("expected at most 10000000; surface_grass.density_per_m2 makes it less"),
+              std::string::npos)
+        << dense;
 }
 
 TEST(SurfacePlacement, TrianglesWithoutAreaCarryNothing) {
@@ -348,7 +391,8 @@ TEST(SurfacePlacement, TrianglesWithoutAreaCarryNothing) {
     add_triangle(mesh, {1, 1, 1}, {1, 1, 1}, {1, 1, 1});
     mesh.triangles.insert(mesh.triangles.begin(), mesh.triangles.back());
     const SurfaceBlades grass = place_surface_grass(mesh, spec_of(Placement::kMixed, 200), "m.glb");
-    EXPECT_EQ(grass.blades.size(), place_surface_grass(sound, spec_of(Placement::kMixed, 200), "m.glb").blades.size());
+    EXPECT_EQ(grass.blades.size(),
+              place_surface_grass(sound, spec_of(Placement::kMixed, 200), "m.glb").blades.size());
     for (const auto& blade : grass.blades) {
         ASSERT_LT(off_surface(sound, glm::dvec3(blade.root_direction)), 1e-5);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A grass set on a mesh: charts, as many blades as the set has a square metre whatever way the surface faces, each in its own pose.
+// A grass set on a mesh: charts, as many blades as the set has a square metre whatever way the
+// surface faces, each in its own pose.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -15,7 +16,9 @@
 namespace sward::blades {
 namespace {
 
-float unit(std::uint64_t n, std::uint64_t salt) { return static_cast<float>(base::hash_unit(7, n, salt)); }
+float unit(std::uint64_t n, std::uint64_t salt) {
+    return static_cast<float>(base::hash_unit(7, n, salt));
+}
 
 /// Two variants of a patch of 0.5 m, 900 blades each: two species, which lean any way.
 grass::GrassSet small_set() {
@@ -29,10 +32,15 @@ grass::GrassSet small_set() {
         if (n % 900 == 0) {
             set.variant_begin.push_back(static_cast<std::uint32_t>(n));
         }
-        const float azimuth = 6.2831853f * unit(n, 2), rank = (std::floor(256.0f * static_cast<float>(n % 900) / 900) + 0.5f) / 256;
-        const glm::vec3 way(std::cos(azimuth), 0, std::sin(azimuth)), v1 = glm::vec3(0, 0.05f, 0), v2 = v1 + 0.02f * way + glm::vec3(0, 0.03f, 0);
-        set.blades.push_back({{0.5f * unit(n, 0), 0.5f * unit(n, 1), rank, (std::floor(256 * unit(n, 3)) + 0.5f) / 256},
-                              glm::vec4(v1, 0.001f), glm::vec4(v2, 0.5f), {6.2831853f * unit(n, 4), 0.09f, 0, n % 3 == 0 ? 1.0f : 0.0f}});
+        const float azimuth = 6.2831853f * unit(n, 2),
+                    rank = (std::floor(256.0f * static_cast<float>(n % 900) / 900) + 0.5f) / 256;
+        const glm::vec3 way(std::cos(azimuth), 0, std::sin(azimuth)),
+            v1 = glm::vec3(0, 0.05f, 0), v2 = v1 + 0.02f * way + glm::vec3(0, 0.03f, 0);
+        set.blades.push_back({{0.5f * unit(n, 0), 0.5f * unit(n, 1), rank,
+                               (std::floor(256 * unit(n, 3)) + 0.5f) / 256},
+                              glm::vec4(v1, 0.001f),
+                              glm::vec4(v2, 0.5f),
+                              {6.2831853f * unit(n, 4), 0.09f, 0, n % 3 == 0 ? 1.0f : 0.0f}});
     }
     set.variant_begin.push_back(1800);
     return set;
@@ -44,8 +52,10 @@ scene::Mesh ball(float radius, int rings) {
     const auto columns = static_cast<std::uint32_t>(2 * rings);
     for (int j = 0; j <= rings; ++j) {
         for (std::uint32_t i = 0; i <= columns; ++i) {
-            const double polar = 3.14159265358979 * j / rings, around = 3.14159265358979 * (i % columns) / rings;
-            const glm::vec3 out(std::sin(polar) * std::cos(around), std::cos(polar), std::sin(polar) * std::sin(around));
+            const double polar = 3.14159265358979 * j / rings,
+                         around = 3.14159265358979 * (i % columns) / rings;
+            const glm::vec3 out(std::sin(polar) * std::cos(around), std::cos(polar),
+                                std::sin(polar) * std::sin(around));
             mesh.positions.push_back(radius * out);
             mesh.normals.push_back(out);
         }
@@ -68,7 +78,8 @@ TEST(SurfaceSet, ChartsFaceAllWays) {
         EXPECT_GT(glm::dot(shared::chart_up(chart), up), 0.887f); // 27.5 degrees
         const shared::SurfaceFrame frame = shared::surface_frame(chart, up);
         EXPECT_NEAR(glm::dot(glm::cross(frame.east, frame.up), frame.south), 1, 1e-5);
-        EXPECT_LT(glm::length(shared::from_surface(frame, shared::to_surface(frame, up)) - up), 1e-5f);
+        EXPECT_LT(glm::length(shared::from_surface(frame, shared::to_surface(frame, up)) - up),
+                  1e-5f);
     }
     const int level = shared::chart_of({0, 1, 0}); // level ground: the world's own axes
     EXPECT_EQ(shared::chart_place(level, {3, 8, -2}), glm::vec2(3, -2));
@@ -93,7 +104,9 @@ TEST(SurfaceSet, AsManyBladesAsTheSetHas) {
     EXPECT_NEAR(static_cast<double>(half.blades.size()), 0.5 * wanted, 0.04 * wanted);
     const SurfaceBlades again = place_set_on_surface(mesh, {set, 1, 180}, "ball.glb");
     ASSERT_EQ(again.blades.size(), whole.blades.size());
-    EXPECT_EQ(std::memcmp(again.blades.data(), whole.blades.data(), whole.blades.size() * sizeof(shared::SurfaceBlade)), 0);
+    EXPECT_EQ(std::memcmp(again.blades.data(), whole.blades.data(),
+                          whole.blades.size() * sizeof(shared::SurfaceBlade)),
+              0);
 }
 
 TEST(SurfaceSet, BladesStandAsTheSetHasThem) {
@@ -101,7 +114,8 @@ TEST(SurfaceSet, BladesStandAsTheSetHasThem) {
     double second = 0;
     const SurfaceBlades grass = place_set_on_surface(ball(1.5f, 48), {set, 1, 180}, "ball.glb");
     for (const shared::SurfaceBlade& blade : grass.blades) {
-        const glm::vec3 root(blade.root_direction), up(blade.up_stiffness), v1(blade.v1_height), v2(blade.v2_width);
+        const glm::vec3 root(blade.root_direction), up(blade.up_stiffness), v1(blade.v1_height),
+            v2(blade.v2_width);
         EXPECT_NEAR(glm::length(root), 1.5, 0.004);
         EXPECT_GT(glm::dot(up, glm::normalize(root)), 0.999f);
         EXPECT_NEAR(glm::dot(v1, up), 0.05, 1e-5);
@@ -119,8 +133,10 @@ TEST(SurfaceSet, SteepPartsAndTooMuchAreRefused) {
     for (const shared::SurfaceBlade& blade : cap.blades) {
         EXPECT_GT(blade.root_direction.y, 0.7f);
     }
-    EXPECT_THROW(static_cast<void>(place_set_on_surface(ball(1000, 8), {set, 1, 180}, "ball.glb")), base::Error);
-    EXPECT_THROW(static_cast<void>(place_set_on_surface(scene::Mesh(), {set, 1, 180}, "ball.glb")), base::Error);
+    EXPECT_THROW(static_cast<void>(place_set_on_surface(ball(1000, 8), {set, 1, 180}, "ball.glb")),
+                 base::Error);
+    EXPECT_THROW(static_cast<void>(place_set_on_surface(scene::Mesh(), {set, 1, 180}, "ball.glb")),
+                 base::Error);
 }
 
 } // namespace

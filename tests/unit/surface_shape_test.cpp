@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blades of meshes as shapes: the outlines against J8's printed forms, teeth that survive every level, the width correction, where a
-// blade comes to rest.
+// Blades of meshes as shapes: the outlines against J8's printed forms, teeth that survive every
+// level, the width correction, where a blade comes to rest.
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -20,14 +20,22 @@ TEST(SurfaceShape, OutlinesHaveThePrintedWidths) {
     for (int i = 0; i <= 20; ++i) {
         const float v = static_cast<float>(i) / 20;
         const auto printed_width = [&](auto t) { return t(1.0f) - t(0.0f); };
-        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeQuad), 8), printed_width([](float u) { return u; }), 1e-6);
-        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeTriangle), 8), printed_width([&](float u) { return u + v / 2 - u * v; }), 1e-6);
-        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeQuadratic), 8), printed_width([&](float u) { return u - u * v * v; }), 1e-6);
-        const auto tip = [&](float u) { return 0.5f + (u - 0.5f) * (1 - std::max(v - tau, 0.0f) / (1 - tau)); };
-        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeTriangleTip, tau), 8), printed_width(tip), 1e-6);
+        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeQuad), 8),
+                    printed_width([](float u) { return u; }), 1e-6);
+        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeTriangle), 8),
+                    printed_width([&](float u) { return u + v / 2 - u * v; }), 1e-6);
+        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeQuadratic), 8),
+                    printed_width([&](float u) { return u - u * v * v; }), 1e-6);
+        const auto tip = [&](float u) {
+            return 0.5f + (u - 0.5f) * (1 - std::max(v - tau, 0.0f) / (1 - tau));
+        };
+        EXPECT_NEAR(surface_blade_width(v, shape_of(kShapeTriangleTip, tau), 8), printed_width(tip),
+                    1e-6);
         for (const float u : {0.0f, 0.3f, 1.0f}) { // these two agree in place too
-            EXPECT_NEAR(surface_blade_outline(u, v, shape_of(kShapeTriangle), {8, 0}), u + v / 2 - u * v, 1e-6);
-            EXPECT_NEAR(surface_blade_outline(u, v, shape_of(kShapeTriangleTip, tau), {8, 0}), tip(u), 1e-6);
+            EXPECT_NEAR(surface_blade_outline(u, v, shape_of(kShapeTriangle), {8, 0}),
+                        u + v / 2 - u * v, 1e-6);
+            EXPECT_NEAR(surface_blade_outline(u, v, shape_of(kShapeTriangleTip, tau), {8, 0}),
+                        tip(u), 1e-6);
         }
     }
 }
@@ -38,9 +46,11 @@ TEST(SurfaceShape, WidthCorrectionNeverDragsABladeAside) {
             for (int i = 0; i <= 10; ++i) {
                 const float v = static_cast<float>(i) / 10;
                 EXPECT_NEAR(surface_blade_outline(0.5f, v, shape_of(kind), {10, phi}), 0.5f, 1e-6);
-                const float left = surface_blade_outline(0, v, shape_of(kind), {10, phi}), right = surface_blade_outline(1, v, shape_of(kind), {10, phi});
+                const float left = surface_blade_outline(0, v, shape_of(kind), {10, phi}),
+                            right = surface_blade_outline(1, v, shape_of(kind), {10, phi});
                 EXPECT_NEAR(left + right, 1, 1e-6);
-                EXPECT_GE(right - left, surface_blade_width(v, shape_of(kind), 10) - 1e-6f); // it only widens
+                EXPECT_GE(right - left,
+                          surface_blade_width(v, shape_of(kind), 10) - 1e-6f); // it only widens
             }
         }
         EXPECT_EQ(surface_blade_outline(1, 1, shape_of(kind), {10, 1}), 1); // as a quad in the end
@@ -81,10 +91,13 @@ TEST(SurfaceShape, DandelionTeethSurviveEveryLevel) {
         EXPECT_EQ(points, std::clamp(wanted / 2, 1, 5)) << wanted;
         EXPECT_NEAR(mean, whole, 0.2 * whole) << wanted; // a single tooth is the coarsest
     }
-    // An outline that does not know the level loses them: at 4 segments the five teeth's own outline, sampled evenly.
+    // An outline that does not know the level loses them: at 4 segments the five teeth's own
+    // outline, sampled evenly.
     int points = 0;
     for (int i = 1; i < 4; ++i) {
-        const auto w = [&](int k) { return surface_blade_width(static_cast<float>(k) / 4, leaf, 10); };
+        const auto w = [&](int k) {
+            return surface_blade_width(static_cast<float>(k) / 4, leaf, 10);
+        };
         points += w(i) > w(i - 1) && w(i) > w(i + 1);
     }
     EXPECT_LT(points, 2);
@@ -96,7 +109,8 @@ TEST(SurfaceShape, StationsStandOnTheKinks) {
         const float level = surface_blade_level(static_cast<float>(wanted), 24, tip);
         bool met = false;
         for (int i = 0; i <= static_cast<int>(level); ++i) {
-            met = met || std::abs(surface_blade_station(static_cast<float>(i) / level, tip, level) - 0.8f) < 1e-6f;
+            met = met || std::abs(surface_blade_station(static_cast<float>(i) / level, tip, level) -
+                                  0.8f) < 1e-6f;
         }
         EXPECT_TRUE(met) << wanted;
     }
@@ -115,7 +129,9 @@ TEST(SurfaceShape, StationsStandOnTheKinks) {
 TEST(SurfaceBladeRest, WidthDirectionsAreSquareToUp) {
     for (int i = 0; i < 500; ++i) {
         const auto n = static_cast<uint>(i);
-        const float y = 2 * hash_to_unit(hash_pcg(n)) - 1, a = 6.2831853f * hash_to_unit(hash_pcg(n + 7777)), turn = 0.1f * static_cast<float>(i);
+        const float y = 2 * hash_to_unit(hash_pcg(n)) - 1,
+                    a = 6.2831853f * hash_to_unit(hash_pcg(n + 7777)),
+                    turn = 0.1f * static_cast<float>(i);
         const vec3 up(std::sqrt(1 - y * y) * std::cos(a), y, std::sqrt(1 - y * y) * std::sin(a));
         const vec3 across = surface_width_direction(up, turn);
         EXPECT_NEAR(length(across), 1, 1e-5);
@@ -129,7 +145,8 @@ TEST(SurfaceBladeRest, WidthDirectionsAreSquareToUp) {
 float curve_length_of(vec3 v1, vec3 v2) {
     float sum = 0;
     for (int i = 0; i < 256; ++i) {
-        sum += length(blade_curve(v1, v2, static_cast<float>(i + 1) / 256) - blade_curve(v1, v2, static_cast<float>(i) / 256));
+        sum += length(blade_curve(v1, v2, static_cast<float>(i + 1) / 256) -
+                      blade_curve(v1, v2, static_cast<float>(i) / 256));
     }
     return sum;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The continuum of tracks (methods.md C1 to C4) by its C++ twin, and the keys of a scene's [tracks].
+// The continuum of tracks (methods.md C1 to C4) by its C++ twin, and the keys of a scene's
+// [tracks].
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -49,7 +50,9 @@ double crest(TrackTwin& field, int from) {
     for (int x = from; x < kSide - 1; ++x) {
         best = field.at(x, 64).theta.x > field.at(best, 64).theta.x ? x : best;
     }
-    const double a = static_cast<double>(field.at(best - 1, 64).theta.x), b = static_cast<double>(field.at(best, 64).theta.x), c = static_cast<double>(field.at(best + 1, 64).theta.x);
+    const double a = static_cast<double>(field.at(best - 1, 64).theta.x),
+                 b = static_cast<double>(field.at(best, 64).theta.x),
+                 c = static_cast<double>(field.at(best + 1, 64).theta.x);
     return best + 0.5 * (a - c) / (a - 2 * b + c);
 }
 
@@ -60,7 +63,8 @@ TEST(Tracks, AFrontRunsAtItsSpeed) {
         TrackTwin field;
         raise_wall(field, 30, 4);
         const double cells_a_step = static_cast<double>(speed * kStep / rules.cell_m);
-        const int early = static_cast<int>(16 / cells_a_step), late = static_cast<int>(52 / cells_a_step);
+        const int early = static_cast<int>(16 / cells_a_step),
+                  late = static_cast<int>(52 / cells_a_step);
         double first = 0;
         for (int n = 1; n <= late; ++n) {
             field.step(rules, {}, {0, 0});
@@ -83,39 +87,48 @@ TEST(Tracks, ATipBendsAsItsRootDidAWhileAgo) {
     }
     const auto theta = [&](float cells) {
         const auto x = static_cast<int>(cells);
-        return glm::mix(field.at(x, 64).theta.x, field.at(x + 1, 64).theta.x, cells - static_cast<float>(x));
+        return glm::mix(field.at(x, 64).theta.x, field.at(x + 1, 64).theta.x,
+                        cells - static_cast<float>(x));
     };
     for (const float share : {0.5f, 1.0f}) {
         const glm::vec2 ahead = shared::track_delay({0.1f, 0}, {1, 0}, share, {speed, 0});
         EXPECT_NEAR(ahead.x, share * shared::kDelay_s * speed, 1e-5f);
     }
-    EXPECT_LT(shared::track_delay({-0.1f, 0}, {1, 0}, 1, {speed, 0}).x, 0.6f * shared::kDelay_s * speed); // back up it is quicker
-    EXPECT_LE(shared::track_delay({0.1f, 0}, {100, 0}, 1, {speed, 0}).x, speed * 0.5f * shared::kPi / 100 + 1e-5f);
+    EXPECT_LT(shared::track_delay({-0.1f, 0}, {1, 0}, 1, {speed, 0}).x,
+              0.6f * shared::kDelay_s * speed); // back up it is quicker
+    EXPECT_LE(shared::track_delay({0.1f, 0}, {100, 0}, 1, {speed, 0}).x,
+              speed * 0.5f * shared::kPi / 100 + 1e-5f);
     std::vector<float> root;
     for (int n = 0; n < 120; ++n) {
         field.step(rules, {}, {0, 0});
         root.push_back(theta(58));
         const int ago = static_cast<int>(shared::kDelay_s / kStep + 0.5f);
         if (n > 80) { // the wave is there
-            EXPECT_NEAR(theta(58 + shared::kDelay_s * speed / rules.cell_m), root[static_cast<std::size_t>(n - ago)], 0.02f) << n;
+            EXPECT_NEAR(theta(58 + shared::kDelay_s * speed / rules.cell_m),
+                        root[static_cast<std::size_t>(n - ago)], 0.02f)
+                << n;
         }
     }
     EXPECT_GT(*std::max_element(root.begin() + 80, root.end()), 0.1f);
 }
 
-/// The energy that central damping takes from and never adds to: half of the changes' squares and of bend times what draws it back.
+/// The energy that central damping takes from and never adds to: half of the changes' squares and
+/// of bend times what draws it back.
 double energy(TrackTwin& before, TrackTwin& now, const TrackRules& rules) {
     double sum = 0;
     for (int z = 0; z < kSide; ++z) {
         for (int x = 0; x < kSide; ++x) {
             const auto beside = [&](int bx, int bz) {
-                const TrackCell& cell = before.at(std::clamp(bx, 0, kSide - 1), std::clamp(bz, 0, kSide - 1));
+                const TrackCell& cell =
+                    before.at(std::clamp(bx, 0, kSide - 1), std::clamp(bz, 0, kSide - 1));
                 return glm::vec4(cell.theta, cell.omega);
             };
             TrackCell still = before.at(x, z);
             still.theta_step = still.omega_step = {0, 0};
-            const glm::vec4 drawn = -shared::track_change(rules, still, beside(x - 1, z), beside(x + 1, z), beside(x, z - 1), beside(x, z + 1)) /
-                                    (1 - 0.5f * rules.damping);
+            const glm::vec4 drawn =
+                -shared::track_change(rules, still, beside(x - 1, z), beside(x + 1, z),
+                                      beside(x, z - 1), beside(x, z + 1)) /
+                (1 - 0.5f * rules.damping);
             const TrackCell& next = now.at(x, z);
             const glm::vec4 change(next.theta_step, next.omega_step), place(next.theta, next.omega);
             sum += 0.5 * static_cast<double>(glm::dot(change, change) + glm::dot(place, drawn));
@@ -142,7 +155,8 @@ TEST(Tracks, EnergyNeverGrows) {
                 TrackTwin before = field;
                 field.step(rules, {}, {0, 0});
                 const double now = energy(before, field, rules);
-                ASSERT_LE(now, last * (1 + 1e-5)) << "step " << n << ", l " << damping << ", k " << k;
+                ASSERT_LE(now, last * (1 + 1e-5))
+                    << "step " << n << ", l " << damping << ", k " << k;
                 last = now;
             }
         }
@@ -175,7 +189,8 @@ TEST(Tracks, AUniformBendRisesAtTheRateOfK) {
         }
         const TrackRules rules = plain_rules(2, damping, k);
         // x'' + g x' + k x = 0 by small steps
-        const double g = 2.0 * static_cast<double>(damping) / (2.0 - static_cast<double>(damping)) / static_cast<double>(kStep);
+        const double g = 2.0 * static_cast<double>(damping) / (2.0 - static_cast<double>(damping)) /
+                         static_cast<double>(kStep);
         double x = 1, v = 0;
         for (int n = 1; n <= 60; ++n) {
             field.step(rules, {}, {0, 0});
@@ -183,7 +198,8 @@ TEST(Tracks, AUniformBendRisesAtTheRateOfK) {
                 v -= (g * v + static_cast<double>(k) * x) * static_cast<double>(kStep) / 1000;
                 x += v * static_cast<double>(kStep) / 1000;
             }
-            ASSERT_NEAR(static_cast<double>(field.at(64, 64).theta.x), 0.6 * x, 0.02) << "k " << k << ", step " << n;
+            ASSERT_NEAR(static_cast<double>(field.at(64, 64).theta.x), 0.6 * x, 0.02)
+                << "k " << k << ", step " << n;
         }
     }
     const TrackRules paper = plain_rules(2, 0.15f, 0);
@@ -208,7 +224,8 @@ shared::TrackPrint print_at(float x, float before_x, float z, glm::vec4 shape, i
     return print;
 }
 
-/// Cells across the strip in every column that a print leaves between 10 and 20 m: least, most, sum.
+/// Cells across the strip in every column that a print leaves between 10 and 20 m: least, most,
+/// sum.
 glm::ivec3 strip(float speed, glm::vec4 shape, int kind) {
     const TrackRules rules = plain_rules(2, 0.15f, 8, 0.2f);
     std::vector<glm::vec2> pressed(TrackTwin::kCount, glm::vec2(0));
@@ -216,7 +233,8 @@ glm::ivec3 strip(float speed, glm::vec4 shape, int kind) {
         const shared::TrackPrint print = print_at(x + speed * kStep, x, 16.1f, shape, kind);
         for (int row = 56; row < 74; ++row) {
             for (int column = 40; column < 80; ++column) {
-                const shared::TrackContact contact = shared::track_contact(rules, print, rules.cell_m * (glm::vec2(column, row) + 0.5f));
+                const shared::TrackContact contact = shared::track_contact(
+                    rules, print, rules.cell_m * (glm::vec2(column, row) + 0.5f));
                 glm::vec2& cell = pressed[static_cast<std::size_t>(row * kSide + column)];
                 cell = contact.touched == 1 ? shared::track_pressed(rules, cell, contact, 1) : cell;
             }
@@ -234,8 +252,10 @@ glm::ivec3 strip(float speed, glm::vec4 shape, int kind) {
 }
 
 TEST(Tracks, AnySpeedLeavesTheSameStrip) {
-    for (const auto& [shape, kind] : {std::pair{glm::vec4(0.15f, 0.35f, 0, 1), shared::kPrintWheel}, std::pair{glm::vec4(1, 1, 0, 1), shared::kPrintSphere},
-                                      std::pair{glm::vec4(0.75f, 0.5f, 0.03f, 1), shared::kPrintBox}}) {
+    for (const auto& [shape, kind] :
+         {std::pair{glm::vec4(0.15f, 0.35f, 0, 1), shared::kPrintWheel},
+          std::pair{glm::vec4(1, 1, 0, 1), shared::kPrintSphere},
+          std::pair{glm::vec4(0.75f, 0.5f, 0.03f, 1), shared::kPrintBox}}) {
         const glm::ivec3 slow = strip(1, shape, kind);
         EXPECT_GE(slow.x, 1) << kind;
         EXPECT_LE(slow.y - slow.x, 1) << kind;
@@ -268,8 +288,12 @@ TEST(Tracks, GrassUnderWhatStaysIsHeldDownAndLeansAwayFromIt) {
 TEST(Tracks, ASkidThatHoversBrushesTipsAndUphillTheGroundComesUp) {
     const TrackRules rules = plain_rules(2, 0.15f, 8);
     TrackTwin low, high, hill;
-    const shared::TrackPrint on_ground = print_at(16.2f, 16, 16, {0.5f, 0.5f, 0, 1}, shared::kPrintBox), hovers = print_at(16.2f, 16, 16, {0.5f, 0.5f, 0.27f, 1}, shared::kPrintBox),
-                             over = print_at(16.2f, 16, 16, {0.5f, 0.5f, 0.31f, 1}, shared::kPrintBox);
+    const shared::TrackPrint on_ground =
+                                 print_at(16.2f, 16, 16, {0.5f, 0.5f, 0, 1}, shared::kPrintBox),
+                             hovers =
+                                 print_at(16.2f, 16, 16, {0.5f, 0.5f, 0.27f, 1}, shared::kPrintBox),
+                             over =
+                                 print_at(16.2f, 16, 16, {0.5f, 0.5f, 0.31f, 1}, shared::kPrintBox);
     low.step(rules, {&on_ground, 1}, {0, 0});
     high.step(rules, {&hovers, 1}, {0, 0});
     hill.step(rules, {&on_ground, 1}, {1, 0});
@@ -293,7 +317,9 @@ TEST(Tracks, WindAndTrackAddInOneUnit) {
     const float blown = shared::bend_intensity(4, response);
     const glm::vec2 both = shared::sway_wind({4, 0}, response, {0.3f, 0}, {0, 0});
     EXPECT_NEAR(shared::bend_intensity(both.x, response), blown + 0.3f, 1e-4f);
-    EXPECT_LE(shared::bend_intensity(glm::length(shared::sway_wind({80, 0}, response, {1, 0}, {1, 0})), response), shared::kMostSwayBend + 1e-4f);
+    EXPECT_LE(shared::bend_intensity(
+                  glm::length(shared::sway_wind({80, 0}, response, {1, 0}, {1, 0})), response),
+              shared::kMostSwayBend + 1e-4f);
     EXPECT_GT(shared::lying_light({1, 0}, 1, {-0.9f, 0.4f, 0}), 1.2f);
     EXPECT_LT(shared::lying_light({1, 0}, 1, {0.9f, 0.4f, 0}), 0.8f);
 }
@@ -306,14 +332,17 @@ TEST(Tracks, MemoryGivesPagesBackToTheBitAndKeepsItsBudget) {
     content.bends.assign(3 * 256, {0, 0, 0, 0});
     content.changes = content.bends;
     for (int n = 0; n < 500; ++n) {
-        content.pressed[static_cast<std::size_t>(7 * n)] = shared::track_pack({0.002f * static_cast<float>(n), -1.0f / 3.0f});
-        content.bends[static_cast<std::size_t>(n)] = {1e-7f * static_cast<float>(n), 0.7f, -0.2f, 0};
+        content.pressed[static_cast<std::size_t>(7 * n)] =
+            shared::track_pack({0.002f * static_cast<float>(n), -1.0f / 3.0f});
+        content.bends[static_cast<std::size_t>(n)] = {1e-7f * static_cast<float>(n), 0.7f, -0.2f,
+                                                      0};
     }
     content.epoch = 3;
     EXPECT_TRUE(memory.put({-4, 9}, content));
     const auto back = memory.take({-4, 9});
     ASSERT_TRUE(back.has_value());
-    EXPECT_TRUE(back->pressed == content.pressed && back->moving == content.moving && back->bends == content.bends && back->changes == content.changes);
+    EXPECT_TRUE(back->pressed == content.pressed && back->moving == content.moving &&
+                back->bends == content.bends && back->changes == content.changes);
     EXPECT_EQ(back->epoch, 3);
     EXPECT_EQ(memory.bytes(), 0u);
     EXPECT_FALSE(memory.take({-4, 9}).has_value());
@@ -335,16 +364,22 @@ TEST(Tracks, ThePoolHoldsItsBoundAndDropsTheFarthest) {
     const glm::dvec2 eye(5, 5);
     EXPECT_EQ(pages.least_needed({&eye, 1}, 10, {}), pages.slot_of({3, 0}));
     pages.slots()[static_cast<std::size_t>(pages.slot_of({3, 0}))].busy_until = 20;
-    EXPECT_EQ(pages.least_needed({&eye, 1}, 10, {}), pages.slot_of({2, 0})); // what moves stays longer
+    EXPECT_EQ(pages.least_needed({&eye, 1}, 10, {}),
+              pages.slot_of({2, 0})); // what moves stays longer
     const auto table = pages.table();
     for (int n = 0; n < 4; ++n) {
-        EXPECT_EQ(std::count_if(table.begin(), table.end(), [&](const glm::ivec4& entry) { return entry.z == pages.slot_of({n, 0}) && entry.x == n; }), 1);
+        EXPECT_EQ(std::count_if(table.begin(), table.end(),
+                                [&](const glm::ivec4& entry) {
+                                    return entry.z == pages.slot_of({n, 0}) && entry.x == n;
+                                }),
+                  1);
     }
     EXPECT_EQ(pages.key_at({-0.1, 31.9}), tracks::PageKey(-1, 0));
 }
 
 std::string refusal(const std::string& keys) {
-    const std::string text = "[terrain]\nelevation = \"a.tif\"\n[tracks]\n" + keys + "\n[path.drive]\nkeys = [ { t = 0, position = [0, 0, 0] } ]\n";
+    const std::string text = "[terrain]\nelevation = \"a.tif\"\n[tracks]\n" + keys +
+                             "\n[path.drive]\nkeys = [ { t = 0, position = [0, 0, 0] } ]\n";
     try {
         static_cast<void>(scene::parse_scene(text, "s.toml"));
     } catch (const base::Error& error) {
@@ -355,22 +390,29 @@ std::string refusal(const std::string& keys) {
 
 TEST(Tracks, KeysOutOfRangeAreRefused) {
     EXPECT_EQ(refusal(""), "");
-    EXPECT_EQ(refusal("pages = 4\n[[tracks.foot]]\npath = \"drive\"\nwheel = [0.8, 0, 0.2, 0.35]"), "");
+    EXPECT_EQ(refusal("pages = 4\n[[tracks.foot]]\npath = \"drive\"\nwheel = [0.8, 0, 0.2, 0.35]"),
+              "");
     EXPECT_NE(refusal("damping = 0").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = 1.5").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("damping = nan").find("tracks.damping"), std::string::npos);
     EXPECT_NE(refusal("wave_mps = 0.5").find("tracks.wave_mps"), std::string::npos);
     EXPECT_NE(refusal("wave_gain_m = 2").find("tracks.wave_gain_m"), std::string::npos);
-    EXPECT_NE(refusal("cell_m = 0.05\nwave_mps = 3").find("tracks.wave_mps"), std::string::npos); // outside the stable bound
+    EXPECT_NE(refusal("cell_m = 0.05\nwave_mps = 3").find("tracks.wave_mps"),
+              std::string::npos); // outside the stable bound
     EXPECT_NE(refusal("pages = 0").find("tracks.pages"), std::string::npos);
     EXPECT_NE(refusal("speed = 3").find("speed"), std::string::npos);
     EXPECT_EQ(refusal("mask = \"a.png\"\nmask_place = [0, 0]\nmask_size_m = [10, 20]"), "");
-    EXPECT_NE(refusal("mask = \"a.png\"\nmask_place = [0, 0]").find("tracks.mask_size_m"), std::string::npos);
+    EXPECT_NE(refusal("mask = \"a.png\"\nmask_place = [0, 0]").find("tracks.mask_size_m"),
+              std::string::npos);
     EXPECT_NE(refusal("mask_way_deg = 20").find("tracks.mask"), std::string::npos);
-    EXPECT_NE(refusal("mask = \"a.png\"\nmask_way = \"b.png\"\nmask_way_deg = 20").find("tracks.mask_way_deg"), std::string::npos);
+    EXPECT_NE(refusal("mask = \"a.png\"\nmask_way = \"b.png\"\nmask_way_deg = 20")
+                  .find("tracks.mask_way_deg"),
+              std::string::npos);
     EXPECT_NE(refusal("[[tracks.foot]]\npath = \"drive\"").find("shapes"), std::string::npos);
-    EXPECT_NE(refusal("[[tracks.foot]]\npath = \"dirve\"\nbox = [0, 0, 1, 1]").find("drive"), std::string::npos);
-    EXPECT_NE(refusal("[[tracks.foot]]\npath = \"drive\"\nwheel = [0, 0, 0, 1]").find("wheel"), std::string::npos);
+    EXPECT_NE(refusal("[[tracks.foot]]\npath = \"dirve\"\nbox = [0, 0, 1, 1]").find("drive"),
+              std::string::npos);
+    EXPECT_NE(refusal("[[tracks.foot]]\npath = \"drive\"\nwheel = [0, 0, 0, 1]").find("wheel"),
+              std::string::npos);
 }
 
 } // namespace

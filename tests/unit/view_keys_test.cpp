@@ -43,7 +43,8 @@ TEST(Keys, EveryPressBetweenTwoSlowPicturesIsKept) {
         log.take(down(code, 1));
         log.take(up(code, 1));
     }
-    EXPECT_EQ(actions(log), (std::vector{Action::kPanel, Action::kPanel, Action::kHelp, Action::kPause, Action::kPause}));
+    EXPECT_EQ(actions(log), (std::vector{Action::kPanel, Action::kPanel, Action::kHelp,
+                                         Action::kPause, Action::kPause}));
     log.clear(2);
     EXPECT_TRUE(log.presses().empty());
 }
@@ -53,7 +54,7 @@ TEST(Keys, CtrlAndRepeatsAreToldApart) {
     log.take(down('S', 0));
     EXPECT_TRUE(log.presses().empty());
     log.take(down('S', 0, true));
-    log.take(down('Z', 0, true, true)); // undo goes on while held
+    log.take(down('Z', 0, true, true));  // undo goes on while held
     log.take(down('T', 0, false, true)); // a toggle does not
     log.take(down('T', 0, true));        // nor is it Ctrl+T
     EXPECT_EQ(actions(log), (std::vector{Action::kSave, Action::kUndo}));
@@ -87,7 +88,8 @@ TEST(Keys, NoTwoBindingsShareAKey) {
 
 /// docs/simulator.md has one table of keys: each binding a row, in this order, and no other row.
 TEST(Keys, ThePageOfThePilotsHasThem) {
-    const std::string page = sward::base::read_text(std::string(SWARD_SOURCE_DIR) + "/docs/simulator.md", 1u << 20);
+    const std::string page =
+        sward::base::read_text(std::string(SWARD_SOURCE_DIR) + "/docs/simulator.md", 1u << 20);
     const std::string head = "| key | |\n|---|---|\n";
     const std::size_t begin = page.find(head);
     ASSERT_NE(begin, std::string::npos);
@@ -202,7 +204,8 @@ TEST(SunDay, TheScenesOwnHourIsItsOwnSun) {
                 const SunDay day({azimuth, elevation}, latitude);
                 const auto sun = day.at(day.hour());
                 EXPECT_NEAR(sun.elevation_deg, elevation, 1e-6);
-                EXPECT_NEAR(std::remainder(sun.azimuth_deg - azimuth, 360), 0, 1e-5) << latitude << " " << elevation;
+                EXPECT_NEAR(std::remainder(sun.azimuth_deg - azimuth, 360), 0, 1e-5)
+                    << latitude << " " << elevation;
             }
 }
 
@@ -258,7 +261,8 @@ TEST(CockpitLine, SaysWhatAPilotAsks) {
     facts.marched = 999'999;
     facts.hour = "09:30";
     facts.time_s = 3.25;
-    EXPECT_EQ(cockpit_line(facts), "45 km/h  1.7 m above ground  hdg 359  |  16.7/21.3 ms  |  living 12.3k  drawn 340k  far 1.0M px  |  09:30  t 3.2 s");
+    EXPECT_EQ(cockpit_line(facts), "45 km/h  1.7 m above ground  hdg 359  |  16.7/21.3 ms  |  "
+                                   "living 12.3k  drawn 340k  far 1.0M px  |  09:30  t 3.2 s");
     facts.heading_deg = 359.6;
     facts.above_ground_m = std::nan("");
     facts.rate = 0.25;
@@ -283,7 +287,8 @@ TEST(WindowPlace, IsReadAsXWritesIt) {
     EXPECT_FALSE(plain.at);
     EXPECT_EQ(parse_window("--window", "800x600+10+20").at, glm::ivec2(10, 20));
     EXPECT_EQ(parse_window("--window", "800x600+-1920+0").at, glm::ivec2(-1920, 0));
-    for (const char* bad : {"", "800", "800x", "x600", "800x600+", "800x600+1", "800x600+1+2+3", "800x600+a+2", "0x600", "800x600-1-2", "800x600+99999+0", " 800x600"})
+    for (const char* bad : {"", "800", "800x", "x600", "800x600+", "800x600+1", "800x600+1+2+3",
+                            "800x600+a+2", "0x600", "800x600-1-2", "800x600+99999+0", " 800x600"})
         try {
             static_cast<void>(parse_window("--window", bad));
             ADD_FAILURE() << bad;
@@ -297,8 +302,11 @@ TEST(Step, IsANumberOrAFraction) {
     constexpr NumberRange kRange{1e-6, 10, "seconds"};
     EXPECT_EQ(parse_step("--fixed-timestep", "0.5", kRange), 0.5);
     EXPECT_EQ(parse_step("--fixed-timestep", "1/144", kRange), 1.0 / 144);
-    for (const char* bad : {"1/0", "0/1", "/3", "1/", "1/2/3", "a/b", "1/-3", "100/1", "nan/1", "1/1e300"})
-        EXPECT_THROW(static_cast<void>(parse_step("--fixed-timestep", bad, kRange)), sward::base::Error) << bad;
+    for (const char* bad :
+         {"1/0", "0/1", "/3", "1/", "1/2/3", "a/b", "1/-3", "100/1", "nan/1", "1/1e300"})
+        EXPECT_THROW(static_cast<void>(parse_step("--fixed-timestep", bad, kRange)),
+                     sward::base::Error)
+            << bad;
 }
 
 TEST(RecentScenes, NewestFirstEachOnceNineAtMost) {
@@ -330,12 +338,18 @@ TEST(ViewScene, AnElevationFileIsASceneOfItsOwn) {
     const auto scene = sward::scene::parse_scene(elevation_scene("/dir/" + name), "/dir/" + name);
     EXPECT_EQ(scene.terrain.elevation, "/dir/" + name);
     EXPECT_EQ(scene_title(scene), name);
-    EXPECT_EQ(scene_title(sward::scene::parse_scene(elevation_scene("h.raw"), "/land/hills/scene.toml")), "hills");
+    EXPECT_EQ(
+        scene_title(sward::scene::parse_scene(elevation_scene("h.raw"), "/land/hills/scene.toml")),
+        "hills");
 }
 
 TEST(Devices, MoveAndPressWhatControlsTomlSays) {
     const std::string guid(32, 'a');
-    input::ControlReader reader({{{guid, "", {{0, input::Axis::kSteer, false, 0, 1}, {1, input::Axis::kMoveForward, true, 0, 1}, {2, input::Axis::kLookUp, false, 0, 1}},
+    input::ControlReader reader({{{guid,
+                                   "",
+                                   {{0, input::Axis::kSteer, false, 0, 1},
+                                    {1, input::Axis::kMoveForward, true, 0, 1},
+                                    {2, input::Axis::kLookUp, false, 0, 1}},
                                    {{0, "pause"}, {1, "camera_3"}, {2, "hand_brake"}}}}});
     const std::vector<float> axes = {0.5f, -1, 0.25f};
     std::vector<unsigned char> buttons = {0, 0, 0};
@@ -361,7 +375,8 @@ TEST(Devices, MoveAndPressWhatControlsTomlSays) {
 }
 
 TEST(Devices, EveryNameIsAPressAndStandsInThePage) {
-    const std::string page = sward::base::read_text(std::string(SWARD_SOURCE_DIR) + "/docs/controls.md", 1u << 20);
+    const std::string page =
+        sward::base::read_text(std::string(SWARD_SOURCE_DIR) + "/docs/controls.md", 1u << 20);
     for (const std::string& name : button_actions()) {
         EXPECT_EQ(press_named(name).has_value(), name != "hand_brake") << name;
         EXPECT_NE(page.find('`' + name + '`'), std::string::npos) << name;

@@ -29,7 +29,8 @@ const std::string kHead = "sward-record 1\nrate 60\nstart 2\n";
 const std::string kStep = "step 1 2 3 350 -5 0 60 0 0 1 0 0 0\n";
 
 TEST(Record, ComesBackBitForBit) {
-    const fs::path file = fs::temp_directory_path() / ("sward-record-" + std::to_string(::getpid()));
+    const fs::path file =
+        fs::temp_directory_path() / ("sward-record-" + std::to_string(::getpid()));
     FlightRecord wanted;
     for (int i = 0; i < 100; ++i) {
         RecordStep step;
@@ -73,7 +74,8 @@ TEST(Record, PosesAreOfTheTimeWhateverItsSum) {
         EXPECT_EQ(record.pose_at(a).pose.position, record.pose_at(b).pose.position) << i;
         EXPECT_EQ(record.step_at(a), record.step_at(b));
         EXPECT_EQ(record.step_at(a), static_cast<std::size_t>(i * 10));
-        EXPECT_EQ(record.pose_at(a).pose.position, record.steps[static_cast<std::size_t>(i * 10)].position);
+        EXPECT_EQ(record.pose_at(a).pose.position,
+                  record.steps[static_cast<std::size_t>(i * 10)].position);
     }
     const ViewPose half = record.pose_at(0.5 / 60);
     EXPECT_NEAR(half.pose.position.x, 0.005, 1e-12);

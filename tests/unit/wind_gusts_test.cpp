@@ -31,8 +31,9 @@ TEST(GustSpectrum, IsFreeOfDivergenceAndOfUnitStrength) {
         for (std::size_t y = 0; y < 64; ++y) {
             for (std::size_t x = 0; x < 64; ++x) {
                 const std::size_t own = y * 64 + x;
-                divergence = std::max(divergence, std::abs(static_cast<double>(u[y * 64 + (x + 1) % 64] - u[own] +
-                                                                               v[(y + 1) % 64 * 64 + x] - v[own])));
+                divergence = std::max(
+                    divergence, std::abs(static_cast<double>(u[y * 64 + (x + 1) % 64] - u[own] +
+                                                             v[(y + 1) % 64 * 64 + x] - v[own])));
                 sum_u += static_cast<double>(u[own]);
                 sum_v += static_cast<double>(v[own]);
             }
@@ -58,7 +59,8 @@ TEST(GustSpectrum, IsStrongestAtItsPeak) {
     const wind::GustSpectrum spectrum = wind::gust_spectrum(128, 8, 5);
     std::vector<float> u, v;
     spectrum.velocities({}, u, v);
-    // Energy of v along x in bands of waves around the torus: v's own spectrum peaks near the gusts'.
+    // Energy of v along x in bands of waves around the torus: v's own spectrum peaks near the
+    // gusts'.
     const auto band = [&](int first, int last) {
         double energy = 0;
         for (int k = first; k <= last; ++k) {
@@ -79,7 +81,8 @@ TEST(GustSpectrum, IsStrongestAtItsPeak) {
 }
 
 TEST(WindPlaces, TapsOfATileWrapAround) {
-    for (const vec2 place : {vec2(0.1f, 0.2f), vec2(7.9f, 0.3f), vec2(3.5f, 7.5f), vec2(-13.0f, 100.0f), vec2(8.0f, 8.0f)}) {
+    for (const vec2 place : {vec2(0.1f, 0.2f), vec2(7.9f, 0.3f), vec2(3.5f, 7.5f),
+                             vec2(-13.0f, 100.0f), vec2(8.0f, 8.0f)}) {
         const shared::WindTap tap = shared::wind_tile_tap(8, place);
         for (int i = 0; i < 4; ++i) {
             ASSERT_GE(tap.at[i], 0);
@@ -90,7 +93,8 @@ TEST(WindPlaces, TapsOfATileWrapAround) {
         ASSERT_GE(std::min(tap.within.x, tap.within.y), 0);
         ASSERT_LE(std::max(tap.within.x, tap.within.y), 1);
     }
-    const shared::WindTap centre = shared::wind_tile_tap(8, {3.5f, 7.5f}); // the centre of cell (3, 7)
+    const shared::WindTap centre =
+        shared::wind_tile_tap(8, {3.5f, 7.5f}); // the centre of cell (3, 7)
     EXPECT_EQ(centre.at.x, 7 * 8 + 3);
     EXPECT_EQ(centre.within, vec2(0, 0));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrows, sources and obstacles on the CPU: what wind_force_at() wants, when arrows start, what a footprint covers.
+// Arrows, sources and obstacles on the CPU: what wind_force_at() wants, when arrows start, what a
+// footprint covers.
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -18,9 +19,11 @@ using shared::vec2;
 using shared::WindForce;
 using Source = scene::WindSource;
 
-scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root, glm::dvec2 tip, double strength) {
+scene::WindArrow arrow(const std::string& id, const std::string& parent, glm::dvec2 root,
+                       glm::dvec2 tip, double strength) {
     scene::WindArrow a;
-    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength, a.radius_m = 2;
+    a.id = id, a.parent = parent, a.root = root, a.tip = tip, a.strength_mps = strength,
+    a.radius_m = 2;
     return a;
 }
 
@@ -32,7 +35,8 @@ Source source(Source::Kind kind, double strength, double radius) {
     return s;
 }
 
-ForceList list_of(std::vector<scene::WindArrow> arrows, std::vector<Source> sources, Paths paths = {}) {
+ForceList list_of(std::vector<scene::WindArrow> arrows, std::vector<Source> sources,
+                  Paths paths = {}) {
     scene::WindSpec spec;
     spec.arrows = std::move(arrows);
     spec.sources = std::move(sources);
@@ -49,9 +53,9 @@ TEST(ArrowTimes, AChildWaitsForItsParentsGust) {
     // 10 m at 5 m/s, then 6 m at 3 m/s; children stand before their parents in the file.
     auto trunk = arrow("trunk", "", {0, 0}, {10, 0}, 5);
     trunk.start_s = 1;
-    const std::vector<scene::WindArrow> arrows = {arrow("leaf", "branch", {10, 6}, {12, 8}, 2),
-                                                  arrow("branch", "trunk", {10, 0}, {10, 6}, 3), trunk,
-                                                  arrow("other", "trunk", {10, 0}, {10, -9}, 4)};
+    const std::vector<scene::WindArrow> arrows = {
+        arrow("leaf", "branch", {10, 6}, {12, 8}, 2), arrow("branch", "trunk", {10, 0}, {10, 6}, 3),
+        trunk, arrow("other", "trunk", {10, 0}, {10, -9}, 4)};
     const auto spans = arrow_spans(arrows);
     EXPECT_DOUBLE_EQ(spans[2].start_s, 1);
     EXPECT_DOUBLE_EQ(spans[1].start_s, 3);
@@ -76,14 +80,16 @@ TEST(ArrowTimes, OwnTimesNarrowAndEndsTravelToo) {
 }
 
 TEST(ArrowTimes, AParentWithoutStrengthSendsNothingOn) {
-    const auto list = list_of({arrow("a", "", {0, 0}, {1, 0}, 0), arrow("b", "a", {1, 0}, {2, 0}, 3)}, {});
+    const auto list =
+        list_of({arrow("a", "", {0, 0}, {1, 0}, 0), arrow("b", "a", {1, 0}, {2, 0}, 3)}, {});
     EXPECT_TRUE(list.at(1e6, {0, 0}, 0.5).empty());
 }
 
 TEST(ArrowTimes, LongChainsNeedNoStack) {
     std::vector<scene::WindArrow> arrows;
     for (int i = 99999; i >= 0; --i)
-        arrows.push_back(arrow(std::to_string(i), i ? std::to_string(i - 1) : "", {i, 0}, {i + 1, 0}, 1));
+        arrows.push_back(
+            arrow(std::to_string(i), i ? std::to_string(i - 1) : "", {i, 0}, {i + 1, 0}, 1));
     EXPECT_DOUBLE_EQ(arrow_spans(arrows).front().start_s, 99999);
 }
 
@@ -119,8 +125,12 @@ TEST(Forces, RelaxingNeverPassesTheTarget) {
 /// Divergence of a force's outflow by central differences.
 double divergence(const WindForce& force, glm::dvec2 at) {
     const double h = 0.01;
-    const auto flow = [&](double x, double z) { return glm::dvec2(shared::wind_force_at(force, vec2(x, z)).outflow); };
-    return (flow(at.x + h, at.y).x - flow(at.x - h, at.y).x + flow(at.x, at.y + h).y - flow(at.x, at.y - h).y) / (2 * h);
+    const auto flow = [&](double x, double z) {
+        return glm::dvec2(shared::wind_force_at(force, vec2(x, z)).outflow);
+    };
+    return (flow(at.x + h, at.y).x - flow(at.x - h, at.y).x + flow(at.x, at.y + h).y -
+            flow(at.x, at.y - h).y) /
+           (2 * h);
 }
 
 TEST(Forces, ARotorBlowsOutwardsInARing) {
@@ -134,7 +144,9 @@ TEST(Forces, ARotorBlowsOutwardsInARing) {
     EXPECT_NEAR(force.speed_mps, 21.1, 0.1);
     const float ring = force.radius_m;
     EXPECT_NEAR(ring, 5.3, 0.1);
-    const auto radial = [&](double r) { return shared::wind_force_at(force, vec2(r * 0.6, r * 0.8)).outflow; };
+    const auto radial = [&](double r) {
+        return shared::wind_force_at(force, vec2(r * 0.6, r * 0.8)).outflow;
+    };
     EXPECT_NEAR(glm::length(radial(ring)), force.speed_mps, 0.01);
     EXPECT_NEAR(radial(ring).x / radial(ring).y, 0.75, 1e-4);
     EXPECT_LT(glm::length(radial(0.1)), 1) << "calm below the hub";
@@ -149,10 +161,12 @@ TEST(Forces, ARotorBlowsOutwardsInARing) {
 
 TEST(Forces, HeightWeakensAndWidensTheOutwash) {
     const Source rotor = source(Source::Kind::kRotor, 20, 5);
-    const Outwash low = rotor_outwash(rotor, 1), high = rotor_outwash(rotor, 60), far = rotor_outwash(rotor, 600);
+    const Outwash low = rotor_outwash(rotor, 1), high = rotor_outwash(rotor, 60),
+                  far = rotor_outwash(rotor, 600);
     EXPECT_NEAR(low.speed_mps, 20, 0.1);
     EXPECT_LT(high.speed_mps, 0.75 * low.speed_mps);
-    EXPECT_NEAR(far.speed_mps * far.radius_m, low.speed_mps * low.radius_m, 1e-9) << "momentum of a plane of air is kept";
+    EXPECT_NEAR(far.speed_mps * far.radius_m, low.speed_mps * low.radius_m, 1e-9)
+        << "momentum of a plane of air is kept";
     EXPECT_NEAR(far.speed_mps, 20 * 42.43 / 600, 0.02) << "1 / height";
     // On a path above the datum the ground's height, 100 m here, is taken off.
     Paths paths;
@@ -160,7 +174,8 @@ TEST(Forces, HeightWeakensAndWidensTheOutwash) {
     paths["p"].agl = false;
     Source carried = rotor;
     carried.where.path = "p";
-    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps, rotor_outwash(rotor, 3).speed_mps, 1e-4);
+    EXPECT_NEAR(only_force(list_of({}, {carried}, paths)).speed_mps,
+                rotor_outwash(rotor, 3).speed_mps, 1e-4);
 }
 
 TEST(Forces, ACycloneTurnsAndDrawsIn) {
@@ -169,14 +184,16 @@ TEST(Forces, ACycloneTurnsAndDrawsIn) {
     for (const bool clockwise : {false, true}) {
         cyclone.clockwise = clockwise;
         const WindForce force = only_force(list_of({}, {cyclone}));
-        const auto east = shared::wind_force_at(force, vec2(8, 0)); // z is south: clockwise blows south here
+        const auto east =
+            shared::wind_force_at(force, vec2(8, 0)); // z is south: clockwise blows south here
         EXPECT_NEAR(east.target.y, clockwise ? 30 : -30, 0.01);
         EXPECT_NEAR(east.target.x, -7.5, 0.01);
         EXPECT_NEAR(east.outflow.x, -7.5, 0.01);
         EXPECT_EQ(east.outflow.y, 0);
         EXPECT_GT(east.rate, 0.5);
         EXPECT_LT(divergence(force, {1, 1}), -0.5) << "an updraft in the core";
-        EXPECT_NEAR(glm::length(shared::wind_force_at(force, vec2(0.8, 0)).target), 30 * 0.1756 * 1.03, 0.2)
+        EXPECT_NEAR(glm::length(shared::wind_force_at(force, vec2(0.8, 0)).target),
+                    30 * 0.1756 * 1.03, 0.2)
             << "the core turns like a solid";
     }
 }
@@ -200,7 +217,8 @@ TEST(Forces, AWaveTravels) {
     EXPECT_GT(most, 2.5);
     EXPECT_LE(most, 4);
     const ForceList late = list_of({}, {wave});
-    EXPECT_NEAR(flow(0, 1).x, shared::wind_force_at(only_force(late, 1e6 * 2.5), vec2(1, 3)).outflow.x, 1e-2)
+    EXPECT_NEAR(flow(0, 1).x,
+                shared::wind_force_at(only_force(late, 1e6 * 2.5), vec2(1, 3)).outflow.x, 1e-2)
         << "a million periods later no phase is lost";
 }
 
@@ -251,22 +269,24 @@ TEST(Forces, NothingActsOutsideItsBounds) {
     Paths paths;
     paths["road"].keys = {{0, {0, 0, 0}, 0, 0}, {10, {100, 0, 60}, 0, 0}};
     std::vector<Source> sources;
-    for (const auto kind : {Source::Kind::kRotor, Source::Kind::kJet, Source::Kind::kWake, Source::Kind::kCyclone,
-                            Source::Kind::kWave, Source::Kind::kFan}) {
+    for (const auto kind : {Source::Kind::kRotor, Source::Kind::kJet, Source::Kind::kWake,
+                            Source::Kind::kCyclone, Source::Kind::kWave, Source::Kind::kFan}) {
         sources.push_back(source(kind, 9, 3));
         sources.back().where.yaw_deg = 33;
         sources.back().length_m = 12;
         sources.back().height_m = 4;
     }
     sources[2].where.path = "road";
-    for (const WindForce& force : list_of({arrow("a", "", {0, 0}, {7, 3}, 4)}, sources, paths).at(1, {0, 0}, 0.5)) {
+    for (const WindForce& force :
+         list_of({arrow("a", "", {0, 0}, {7, 3}, 4)}, sources, paths).at(1, {0, 0}, 0.5)) {
         const glm::vec4 bounds = force_bounds(force);
         int outside = 0, acting = 0;
         for (int i = 0; i < 20000; ++i) {
             const vec2 at(anywhere(random), anywhere(random));
             const auto push = shared::wind_force_at(force, at);
             const bool acts = push.rate > 0 || push.outflow != vec2(0);
-            const bool in = at.x >= bounds.x && at.y >= bounds.y && at.x <= bounds.z && at.y <= bounds.w;
+            const bool in =
+                at.x >= bounds.x && at.y >= bounds.y && at.x <= bounds.z && at.y <= bounds.w;
             outside += acts && !in ? 1 : 0;
             acting += acts ? 1 : 0;
         }
@@ -293,25 +313,30 @@ TEST(Tiles, HoldWhatTouchesThem) {
         for (int i = tile.z; i < tile.z + tile.w; ++i) {
             const std::uint32_t item = bins.items[static_cast<std::size_t>(i)];
             has[item] = true;
-            EXPECT_TRUE(i == tile.z || item > bins.items[static_cast<std::size_t>(i) - 1]) << "in one order";
+            EXPECT_TRUE(i == tile.z || item > bins.items[static_cast<std::size_t>(i) - 1])
+                << "in one order";
         }
         entries += static_cast<std::size_t>(tile.w);
         const glm::vec2 least = glm::vec2(tile) * 8.0f, most = least + 8.0f;
         for (std::size_t i = 0; i < bounds.size(); ++i) {
-            const bool meets = bounds[i].x <= most.x && bounds[i].z >= least.x && bounds[i].y <= most.y && bounds[i].w >= least.y;
+            const bool meets = bounds[i].x <= most.x && bounds[i].z >= least.x &&
+                               bounds[i].y <= most.y && bounds[i].w >= least.y;
             EXPECT_TRUE(has[i] || !meets) << tile.x << " " << tile.y << " " << i;
         }
     }
     EXPECT_EQ(entries, bins.items.size());
     EXPECT_LT(entries, 64u * 12) << "not everything in every tile";
-    EXPECT_TRUE(bin_tiles(std::vector<glm::vec4>{{90, 0, 95, 5}, {0, -9, 5, -2}}, cells, 0.5).tiles.empty());
+    EXPECT_TRUE(bin_tiles(std::vector<glm::vec4>{{90, 0, 95, 5}, {0, -9, 5, -2}}, cells, 0.5)
+                    .tiles.empty());
 }
 
 void add_box(scene::Mesh& mesh, glm::vec3 least, glm::vec3 most) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (int i = 0; i < 8; ++i)
-        mesh.positions.emplace_back(i & 1 ? most.x : least.x, i & 2 ? most.y : least.y, i & 4 ? most.z : least.z);
-    const int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+        mesh.positions.emplace_back(i & 1 ? most.x : least.x, i & 2 ? most.y : least.y,
+                                    i & 4 ? most.z : least.z);
+    const int quads[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                             {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
     for (const auto& q : quads) {
         const auto corner = [&](int i) { return first + static_cast<std::uint32_t>(q[i]); };
         mesh.triangles.push_back({corner(0), corner(1), corner(2)});
@@ -327,8 +352,8 @@ bool print_covers(const Footprint& print, glm::dvec2 at) {
 
 TEST(Footprints, FillWhatAHeightCuts) {
     scene::Mesh mesh;
-    add_box(mesh, {-4, 0, -2}, {4, 3, 2});  // a house
-    add_box(mesh, {2, 0, -6}, {7, 2, 1});   // a wing that reaches into it, lower
+    add_box(mesh, {-4, 0, -2}, {4, 3, 2}); // a house
+    add_box(mesh, {2, 0, -6}, {7, 2, 1});  // a wing that reaches into it, lower
     const Footprint low = footprint_of(mesh, 1, 0.5), high = footprint_of(mesh, 2.5, 0.5);
     EXPECT_TRUE(print_covers(low, {0, 0}));
     EXPECT_TRUE(print_covers(low, {3, 0})) << "where both are";
@@ -419,7 +444,8 @@ TEST_F(Solids, MoveAndTurnWithTheirPath) {
     const auto next = list.at(4.5 + dt, {0, 0});
     const vec2 own(1.5f, -0.5f);
     const auto world = [&](const shared::WindSolid& s) {
-        return vec2(s.place.x + s.heading.x * own.x - s.heading.y * own.y, s.place.y + s.heading.y * own.x + s.heading.x * own.y);
+        return vec2(s.place.x + s.heading.x * own.x - s.heading.y * own.y,
+                    s.place.y + s.heading.y * own.x + s.heading.x * own.y);
     };
     EXPECT_NEAR(glm::distance(shared::solid_frame(later[0], world(later[0])), own), 0, 1e-5);
     const vec2 moved = (world(next[0]) - world(later[0])) / static_cast<float>(dt);
@@ -438,7 +464,10 @@ TEST_F(Solids, ThinWallsAreACellThick) {
         int count = 0;
         for (int z = -40; z < 80; ++z)
             for (int x = -40; x < 80; ++x)
-                count += covers(solids[i], (glm::vec2(glm::ivec2(x, z)) + 0.5f) * 0.5f, list.words()) ? 1 : 0;
+                count +=
+                    covers(solids[i], (glm::vec2(glm::ivec2(x, z)) + 0.5f) * 0.5f, list.words())
+                        ? 1
+                        : 0;
         return count;
     };
     EXPECT_GE(hits(0), 17);
@@ -458,11 +487,14 @@ TEST_F(Solids, MeshesNeedAHeightThatMeetsThem) {
         }
         return std::string("none");
     };
-    EXPECT_EQ(message(), "scene.toml: wind.obstacle[0].mesh: found barn.glb, expected a mesh that the host has loaded");
+    EXPECT_EQ(message(), "scene.toml: wind.obstacle[0].mesh: found barn.glb, expected a mesh that "
+                         "the host has loaded");
     add_box(meshes_["barn.glb"], {-4, 0, -1}, {4, 3, 1});
     scene_.wind.obstacles[0].height_m = 3.5;
-    EXPECT_EQ(message(), "scene.toml: wind.obstacle[0].height_m: found 3.5, expected a height that meets the mesh, "
-                         "between 0 and 3 m");
+    EXPECT_EQ(
+        message(),
+        "scene.toml: wind.obstacle[0].height_m: found 3.5, expected a height that meets the mesh, "
+        "between 0 and 3 m");
     scene_.wind.obstacles[0].height_m = 1;
     const SolidList list(scene_, meshes_);
     const auto solids = list.at(0, {0, 0});

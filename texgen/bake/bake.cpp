@@ -15,9 +15,10 @@ namespace sward::texgen {
 namespace {
 
 void report_placing(const std::vector<double>& seen, double canopy_m, int layers) {
-    base::log_debug(fmt::format("{} layers lie {:.1f} mm from what is seen, {:.1f} mm if placed evenly", layers,
-                                1000 * placing_error(seen, place_layers(seen, canopy_m, layers)),
-                                1000 * placing_error(seen, even_layers(canopy_m, layers))));
+    base::log_debug(
+        fmt::format("{} layers lie {:.1f} mm from what is seen, {:.1f} mm if placed evenly", layers,
+                    1000 * placing_error(seen, place_layers(seen, canopy_m, layers)),
+                    1000 * placing_error(seen, even_layers(canopy_m, layers))));
 }
 
 } // namespace
@@ -37,13 +38,14 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     set.density_per_m2 = static_cast<float>(static_cast<double>(patch.variant_begin[1]) /
                                             (preset.side_m * preset.side_m));
     const auto colour = [](const Colour& c) { return glm::vec3(c[0], c[1], c[2]); };
-    set.floor = {static_cast<float>(preset.floor_cover), colour(preset.floor_moss), colour(preset.floor_litter)};
+    set.floor = {static_cast<float>(preset.floor_cover), colour(preset.floor_moss),
+                 colour(preset.floor_litter)};
     double shares = 0;
     for (const Species& species : preset.species)
         shares += species.share;
     for (const Species& species : preset.species)
-        set.species.push_back({species.name, species.element, static_cast<float>(species.share / shares),
-                               appearance(species)});
+        set.species.push_back({species.name, species.element,
+                               static_cast<float>(species.share / shares), appearance(species)});
     // The numbers a reader gets are floats; the textures are drawn for those, not for their
     // doubles.
     set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
@@ -64,9 +66,11 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     {
         const StepTimer timer("march");
         const HeightCaster truth = cast_blades(patch, set.canopy_m);
-        MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(), heights_met(truth, preset.side_m, set.canopy_m));
+        MarchBuilder builder(preset.side_m, set.canopy_m, patch.variants(),
+                             heights_met(truth, preset.side_m, set.canopy_m));
         {
-            base::Progress progress("the march's images", static_cast<std::size_t>(patch.variants()));
+            base::Progress progress("the march's images",
+                                    static_cast<std::size_t>(patch.variants()));
             for (int v = 0; v < patch.variants(); ++v) {
                 add_blades(patch, v, builder);
                 progress.advance();
@@ -75,11 +79,13 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
         MarchData data = builder.finish(patch.looks);
         fit_slopes(patch, static_cast<int>(preset.far_rays), options.threads, data.medium);
         set.march = pack_march(data);
-        set.march.correction = fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
+        set.march.correction =
+            fit_march(data, truth, static_cast<int>(preset.far_rays), options.threads);
     }
     {
         const StepTimer timer("far table");
-        FarTable table = far_table(blade_canopy(patch, set.canopy_m), static_cast<int>(preset.far_rays), options.threads);
+        FarTable table = far_table(blade_canopy(patch, set.canopy_m),
+                                   static_cast<int>(preset.far_rays), options.threads);
         set.far = std::move(table.rows);
         set.far_light = std::move(table.light);
     }

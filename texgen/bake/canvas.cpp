@@ -59,11 +59,13 @@ void Canvas::fill(int x0, int y0, int w, int h, dvec3 colour) {
 void Canvas::text(std::string_view words, int x0, int y0, const TextStyle& style) {
     std::string letters = letters_of(words);
     std::vector<Corner> corners(letters.size() * kStrokesALetter * 4);
-    const int strokes = stb_easy_font_print(0, 0, letters.data(), nullptr, corners.data(), static_cast<int>(corners.size() * sizeof(Corner)));
+    const int strokes = stb_easy_font_print(0, 0, letters.data(), nullptr, corners.data(),
+                                            static_cast<int>(corners.size() * sizeof(Corner)));
     for (std::size_t i = 0; i < static_cast<std::size_t>(strokes); ++i) {
         const Corner &first = corners[4 * i], &last = corners[4 * i + 2];
         const glm::ivec2 from(first.x, first.y), to(last.x, last.y);
-        fill(x0 + from.x * style.size, y0 + from.y * style.size, (to.x - from.x) * style.size, (to.y - from.y) * style.size, style.colour);
+        fill(x0 + from.x * style.size, y0 + from.y * style.size, (to.x - from.x) * style.size,
+             (to.y - from.y) * style.size, style.colour);
     }
 }
 

@@ -18,9 +18,10 @@ public:
     void look(std::span<const float> values, const char* what, std::size_t index) {
         for (std::size_t i = 0; i < values.size(); ++i)
             if (!std::isfinite(values[i]))
-                throw base::Error(base::ExitCode::kFailure,
-                                  fmt::format("--checknan: {} {}, number {}: found {}, expected a finite number",
-                                              what, index, i, values[i]));
+                throw base::Error(
+                    base::ExitCode::kFailure,
+                    fmt::format("--checknan: {} {}, number {}: found {}, expected a finite number",
+                                what, index, i, values[i]));
         count_ += values.size();
     }
     /// A struct of nothing but floats.

@@ -58,13 +58,14 @@ struct Task {
     }
 };
 
-Slab layer_slab(const BakeFrame& frame, const LevelPlan& plan, const grass::FarLevel& far, int layer) {
+Slab layer_slab(const BakeFrame& frame, const LevelPlan& plan, const grass::FarLevel& far,
+                int layer) {
     const auto at = static_cast<std::size_t>(layer);
     // The highest tip lies on the canopy's top: rounding must not cut it off.
     const double top = far.layer_edges[at + 1] * (layer + 1 == plan.layers ? 1 + 1e-6 : 1);
-    return {Family::kLayer, far.layer_edges[at], top,          plan.size,
-            plan.size,      plan.texel_m,        plan.texel_m, frame.patch.side_m,
-            frame.preset.wrap};
+    return {Family::kLayer, far.layer_edges[at], top,
+            plan.size,      plan.size,           plan.texel_m,
+            plan.texel_m,   frame.patch.side_m,  frame.preset.wrap};
 }
 
 Slab slice_slab(const BakeFrame& frame, const LevelPlan& plan, int axis, int slice) {
@@ -89,19 +90,25 @@ std::vector<Task> plan_tasks(const BakeFrame& frame, const LevelPlan& plan, gras
     };
     for (int v = 0; v < frame.patch.variants(); ++v) {
         for (int i = 0; i < plan.images; ++i) {
-            tasks.push_back({v, layer_slab(frame, plan, out, i), &out.layers,
+            tasks.push_back({v,
+                             layer_slab(frame, plan, out, i),
+                             &out.layers,
                              shared::layer_index(v, i, plan.images, shared::kPlaneId),
                              shared::layer_index(v, i, plan.images, shared::kPlaneShape),
-                             salt(0, i), {}});
+                             salt(0, i),
+                             {}});
             for (int below = 0; plan.images == 1 && below < plan.layers; ++below)
                 tasks.back().column.push_back(layer_slab(frame, plan, out, below));
         }
         for (const int axis : {shared::kAxisX, shared::kAxisZ})
             for (int i = 0; i < plan.slices; ++i)
-                tasks.push_back({v, slice_slab(frame, plan, axis, i), &out.slices,
+                tasks.push_back({v,
+                                 slice_slab(frame, plan, axis, i),
+                                 &out.slices,
                                  shared::slice_index(v, axis, i, plan.slices, shared::kPlaneId),
                                  shared::slice_index(v, axis, i, plan.slices, shared::kPlaneShape),
-                                 salt(1 + axis, i), {}});
+                                 salt(1 + axis, i),
+                                 {}});
     }
     return tasks;
 }

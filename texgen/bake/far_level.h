@@ -20,7 +20,8 @@ struct BakeFrame {
     const Patch& patch;
     double canopy_m = 0;
     double offset_range_m = 0;
-    std::span<const double> seen; ///< heights that rays meet, rising: layers stand where they matter (placing.h)
+    std::span<const double>
+        seen; ///< heights that rays meet, rising: layers stand where they matter (placing.h)
     int threads = 1;
     base::Progress* progress = nullptr; ///< advances by level_images() a level
 };

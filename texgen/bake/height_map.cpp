@@ -10,8 +10,10 @@ namespace sward::texgen {
 std::vector<Texel> seen_from_above(std::span<const Slab> column, std::span<const Outline> outlines,
                                    SlabRaster& raster) {
     std::vector<Texel> seen;
-    std::vector<Texel> passed; // the blade that a texel met last and did not take, and what it has covered of it so far
-    for (std::size_t i = column.size(); i-- > 0;) { // from the top down: what is above hides what is below
+    std::vector<Texel> passed; // the blade that a texel met last and did not take, and what it has
+                               // covered of it so far
+    for (std::size_t i = column.size();
+         i-- > 0;) { // from the top down: what is above hides what is below
         const std::vector<Texel>& slab = raster.draw(column[i], outlines);
         seen.resize(slab.size());
         passed.resize(slab.size());
@@ -37,9 +39,11 @@ void heights_for_coverage(TexelImage& image, const BakeFrame& frame, int variant
             continue;
         }
         const shared::BladeRecord& blade = blades[static_cast<std::size_t>(texel.blade)];
-        const float y = shared::blade_curve(shared::vec3(blade.v1), shared::vec3(blade.v2), texel.along).y;
+        const float y =
+            shared::blade_curve(shared::vec3(blade.v1), shared::vec3(blade.v2), texel.along).y;
         const float height = std::clamp(y / static_cast<float>(frame.canopy_m), 0.0f, 1.0f);
-        texel.coverage = std::max(shared::encode_height(height, coding), 1.0f / 255.0f); // 0 is an empty texel
+        texel.coverage =
+            std::max(shared::encode_height(height, coding), 1.0f / 255.0f); // 0 is an empty texel
     }
 }
 

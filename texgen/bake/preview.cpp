@@ -47,16 +47,19 @@ public:
     };
     dvec3 colour(const Place& at, dvec3 tangent, double height) const {
         const shared::GrassAppearance& look = looks_[std::min(at.species, looks_.size() - 1)];
-        const shared::vec3 albedo = shared::blade_albedo(look, shared::vec2(at.rank, at.seed), static_cast<float>(at.along), 1);
+        const shared::vec3 albedo = shared::blade_albedo(look, shared::vec2(at.rank, at.seed),
+                                                         static_cast<float>(at.along), 1);
         const auto top = static_cast<float>(std::clamp(height, 0.0, 1.0));
-        return shared::shade_grass(look, light_, {albedo, shared::vec3(tangent), top, light_.to_sun.y}, {0, 1, 0});
+        return shared::shade_grass(
+            look, light_, {albedo, shared::vec3(tangent), top, light_.to_sun.y}, {0, 1, 0});
     }
     static dvec3 ground() { return kSoil * 0.5; }
     [[nodiscard]] std::span<const shared::GrassAppearance> looks() const { return looks_; }
 
 private:
     std::vector<shared::GrassAppearance> looks_;
-    shared::Light light_{shared::vec3(kSun), 0.55f, {3.4f, 3.2f, 2.8f}, 0, {0.2f, 0.4f, 0.8f}, 1.1f, {0.8f, 0.95f, 1.1f}, 1};
+    shared::Light light_{shared::vec3(kSun), 0.55f, {3.4f, 3.2f, 2.8f},  0,
+                         {0.2f, 0.4f, 0.8f}, 1.1f,  {0.8f, 0.95f, 1.1f}, 1};
 };
 
 /// One image of an array, both planes.
@@ -76,14 +79,16 @@ public:
         double coverage = id_[t] / 255.0;
         if (coverage == 0)
             return {dvec3(0), 0};
-        if (height_coding != shared::kHeightNone) { // B1: the byte is the height of what is seen from above
+        if (height_coding !=
+            shared::kHeightNone) { // B1: the byte is the height of what is seen from above
             layer_height = shared::decode_height(static_cast<float>(coverage), height_coding);
             coverage = 1;
         }
         const shared::vec3 tangent =
             shared::decode_tangent(shared::vec2(shape_[t], shape_[t + 1]) / 255.0f);
-        const Shader::Place place{static_cast<std::size_t>(shared::decode_species(id_[t + 3])), (id_[t + 1] + 0.5) / 256,
-                                  (id_[t + 2] + 0.5) / 256, shared::decode_along(id_[t + 3])};
+        const Shader::Place place{static_cast<std::size_t>(shared::decode_species(id_[t + 3])),
+                                  (id_[t + 1] + 0.5) / 256, (id_[t + 2] + 0.5) / 256,
+                                  shared::decode_along(id_[t + 3])};
         return {shader.colour(place, tangent, layer_height), coverage};
     }
 
@@ -99,20 +104,20 @@ private:
 };
 
 /// All layers of a level seen from above, front to back, at a mip. `covered`: the mean coverage.
-Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int variant, int mip = 0,
-                double* covered = nullptr) {
+Canvas top_view(const grass::GrassSet& set, const Shader& shader, int level, int variant,
+                int mip = 0, double* covered = nullptr) {
     const grass::FarLevel& far = set.levels[static_cast<std::size_t>(level)];
-    Canvas canvas(std::max(1, far.layers.width >> mip), std::max(1, far.layers.height >> mip), dvec3(0));
+    Canvas canvas(std::max(1, far.layers.width >> mip), std::max(1, far.layers.height >> mip),
+                  dvec3(0));
     std::vector<double> clear(canvas.texels.size(), 1.0);
     for (int i = grass::layer_images(set, far) - 1; i >= 0; --i) {
-        Image image(far.layers,
-                          grass::layer_image(set, far, variant, i, shared::kPlaneId),
-                          grass::layer_image(set, far, variant, i, shared::kPlaneShape), mip);
+        Image image(far.layers, grass::layer_image(set, far, variant, i, shared::kPlaneId),
+                    grass::layer_image(set, far, variant, i, shared::kPlaneShape), mip);
         image.height_coding = set.height_coding;
         for (int y = 0; y < canvas.height; ++y)
             for (int x = 0; x < canvas.width; ++x) {
-                const auto [colour, coverage] =
-                    image.texel(shader, x, y, far.layer_heights[static_cast<std::size_t>(i)] / set.canopy_m);
+                const auto [colour, coverage] = image.texel(
+                    shader, x, y, far.layer_heights[static_cast<std::size_t>(i)] / set.canopy_m);
                 double& open = clear[static_cast<std::size_t>(y * canvas.width + x)];
                 canvas.at(x, y) += colour * coverage * open;
                 open *= 1 - coverage;
@@ -168,24 +173,31 @@ Canvas tiling(const grass::GrassSet& set, const Shader& shader) {
     return canvas;
 }
 
-/// What a ray sees of the grass: of its blades, or of the textures of a far-only set, upright there.
+/// What a ray sees of the grass: of its blades, or of the textures of a far-only set, upright
+/// there.
 class Sight {
 public:
     Sight(const grass::GrassSet& set, const Shader& shader)
-        : set_(set), shader_(shader), blades_(std::span(set.blades).subspan(0, set.variant_begin[1]), shader.looks(), set.side_m, set.canopy_m),
+        : set_(set), shader_(shader),
+          blades_(std::span(set.blades).subspan(0, set.variant_begin[1]), shader.looks(),
+                  set.side_m, set.canopy_m),
           textures_(set, 0, 0, {}) {}
 
     [[nodiscard]] std::optional<dvec3> colour(dvec3 eye, dvec3 direction, std::uint64_t ray) const {
         if (set_.blades.empty()) {
             const auto hit = textures_.cast(eye, direction, ray);
-            return hit ? std::optional(shader_.colour({0, 0.5, 0.5, hit->along}, dvec3(0, 1, 0), hit->height / set_.canopy_m)) : std::nullopt;
+            return hit ? std::optional(shader_.colour({0, 0.5, 0.5, hit->along}, dvec3(0, 1, 0),
+                                                      hit->height / set_.canopy_m))
+                       : std::nullopt;
         }
         const auto hit = blades_.cast(eye, direction);
         if (!hit)
             return std::nullopt;
         const shared::BladeRecord& blade = set_.blades[hit->blade];
-        const dvec3 tangent = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2), static_cast<float>(hit->along));
-        return shader_.colour({species_of(blade), blade.root.z, blade.root.w, hit->along}, tangent, hit->position.y / set_.canopy_m);
+        const dvec3 tangent = shared::blade_tangent(shared::vec3(blade.v1), shared::vec3(blade.v2),
+                                                    static_cast<float>(hit->along));
+        return shader_.colour({species_of(blade), blade.root.z, blade.root.w, hit->along}, tangent,
+                              hit->position.y / set_.canopy_m);
     }
 
 private:
@@ -220,7 +232,10 @@ Canvas perspective(const grass::GrassSet& set, const Shader& shader, int threads
                     const dvec3 direction = glm::normalize(view);
                     dvec3 colour = direction.y > -0.02 ? kSky * 0.3 : Shader::ground();
                     if (direction.y < -0.02)
-                        colour = sight.colour(eye, direction, row * 4096 + static_cast<std::uint64_t>(4 * x + s)).value_or(colour);
+                        colour = sight
+                                     .colour(eye, direction,
+                                             row * 4096 + static_cast<std::uint64_t>(4 * x + s))
+                                     .value_or(colour);
                     canvas.at(x, static_cast<int>(row)) +=
                         colour / static_cast<double>(kSide * kSide);
                 }
@@ -245,7 +260,8 @@ scene::Picture encode(const Canvas& canvas) {
 std::string readable_length(double metres) {
     if (metres >= 1)
         return fmt::format("{:.3g} m", metres);
-    return metres >= 0.01 ? fmt::format("{:.3g} cm", metres * 100) : fmt::format("{:.2g} mm", metres * 1000);
+    return metres >= 0.01 ? fmt::format("{:.3g} cm", metres * 100)
+                          : fmt::format("{:.2g} mm", metres * 1000);
 }
 
 /// The sheet, filled panel by panel from the top left.
@@ -253,8 +269,10 @@ class Sheet {
 public:
     Sheet(int width, int height) : canvas(width, height, kPaper) {}
 
-    /// A picture with a caption above it and a scale bar in its corner, where `pixels_per_m` is known.
-    void panel(const Canvas& picture, glm::ivec4 box, const std::string& caption, double pixels_per_m = 0) {
+    /// A picture with a caption above it and a scale bar in its corner, where `pixels_per_m` is
+    /// known.
+    void panel(const Canvas& picture, glm::ivec4 box, const std::string& caption,
+               double pixels_per_m = 0) {
         canvas.text(caption, box.x, box.y - kCaption + 3);
         canvas.place(picture, box.x, box.y, box.z, box.w);
         if (pixels_per_m > 0)
@@ -286,8 +304,10 @@ private:
 constexpr int kMips = 5;
 
 /// Mips of level 0, one beside the other: the same colour and coverage, ever coarser.
-void place_mips(Sheet& sheet, const grass::GrassSet& set, const Shader& shader, glm::ivec2 corner, int side) {
-    for (int m = 0; m < std::min<int>(kMips, static_cast<int>(set.levels[0].layers.mips.size())); ++m) {
+void place_mips(Sheet& sheet, const grass::GrassSet& set, const Shader& shader, glm::ivec2 corner,
+                int side) {
+    for (int m = 0; m < std::min<int>(kMips, static_cast<int>(set.levels[0].layers.mips.size()));
+         ++m) {
         double covered = 0;
         const Canvas picture = top_view(set, shader, 0, 0, m, &covered);
         sheet.panel(picture, {corner.x + m * (side + kMargin), corner.y, side, side},
@@ -297,15 +317,17 @@ void place_mips(Sheet& sheet, const grass::GrassSet& set, const Shader& shader, 
 
 std::string title(const grass::GrassSet& set) {
     const int texels = set.levels[0].layers.width;
-    return fmt::format("{}: {} m, {} variants, {:.0f} blades/m2, canopy {}, {} texels of {}, seed {}", set.name, set.side_m,
-                       set.variants, set.density_per_m2, readable_length(set.canopy_m), texels,
-                       readable_length(static_cast<double>(set.side_m) / texels), set.seed);
+    return fmt::format(
+        "{}: {} m, {} variants, {:.0f} blades/m2, canopy {}, {} texels of {}, seed {}", set.name,
+        set.side_m, set.variants, set.density_per_m2, readable_length(set.canopy_m), texels,
+        readable_length(static_cast<double>(set.side_m) / texels), set.seed);
 }
 
 std::string species_line(const grass::GrassSet& set) {
     std::string words;
     for (const grass::Species& species : set.species)
-        words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : ", ", species.name, 100 * species.share);
+        words += fmt::format("{}{} {:.0f} %", words.empty() ? "" : ", ", species.name,
+                             100 * species.share);
     return words;
 }
 
@@ -315,25 +337,30 @@ void write_preview(const grass::GrassSet& set, const std::filesystem::path& path
     const Shader shader(set);
     constexpr int kWidth = kPanel * 3 / 2 + 2 * kPanel + 4 * kMargin;
     constexpr int kFull = kWidth - 2 * kMargin;
-    const int side_rows = std::clamp(static_cast<int>(kFull * set.canopy_m / set.side_m), 24, kPanel);
+    const int side_rows =
+        std::clamp(static_cast<int>(kFull * set.canopy_m / set.side_m), 24, kPanel);
     const int mip_side = (kFull - (kMips - 1) * kMargin) / kMips;
     const int top = 2 * kMargin + 3 * kCaption, middle = top + kPanel + kMargin + kCaption,
               bottom = middle + side_rows + kMargin + kCaption;
     Sheet sheet(kWidth, bottom + mip_side + kMargin);
     sheet.canvas.text(title(set), kMargin, kMargin + 2);
-    const std::string species = species_line(set); // eight long names pass the sheet's edge: smaller then
-    sheet.canvas.text(species, kMargin, kMargin + 2 + kCaption, {text_width(species, 2) < kFull ? 2 : 1});
+    const std::string species =
+        species_line(set); // eight long names pass the sheet's edge: smaller then
+    sheet.canvas.text(species, kMargin, kMargin + 2 + kCaption,
+                      {text_width(species, 2) < kFull ? 2 : 1});
     const double patch_scale = kPanel / static_cast<double>(set.side_m);
-    sheet.panel(perspective(set, shader, threads), {kMargin, top, kPanel * 3 / 2, kPanel}, "blades in perspective");
+    sheet.panel(perspective(set, shader, threads), {kMargin, top, kPanel * 3 / 2, kPanel},
+                "blades in perspective");
     sheet.panel(top_view(set, shader, 0, 0), {kPanel * 3 / 2 + 2 * kMargin, top, kPanel, kPanel},
                 "layers from above, variant 0", patch_scale);
-    sheet.panel(tiling(set, shader), {kPanel * 5 / 2 + 3 * kMargin, top, kPanel, kPanel}, "3 x 3 tiles, mixed variants",
-                patch_scale / 3);
+    sheet.panel(tiling(set, shader), {kPanel * 5 / 2 + 3 * kMargin, top, kPanel, kPanel},
+                "3 x 3 tiles, mixed variants", patch_scale / 3);
     const double side_scale = kFull / static_cast<double>(set.side_m);
     const double stretch = side_rows / (set.canopy_m * side_scale);
     sheet.panel(side_view(set, shader), {kMargin, middle, kFull, side_rows},
-                std::abs(stretch - 1) < 0.05 ? "slices across z from the side, a quarter of the patch deep"
-                                             : fmt::format("slices across z from the side, height x {:.2f}", stretch),
+                std::abs(stretch - 1) < 0.05
+                    ? "slices across z from the side, a quarter of the patch deep"
+                    : fmt::format("slices across z from the side, height x {:.2f}", stretch),
                 side_scale);
     place_mips(sheet, set, shader, {kMargin, bottom}, mip_side);
     assets::write_png(path, encode(sheet.canvas));

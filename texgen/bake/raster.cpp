@@ -104,11 +104,13 @@ void SlabRaster::segment(const Outline& blade, int i, double shift) {
                  from_v = blade.centre[i][axes.v] * scale_v;
     const double step = (blade.centre[i + 1][axes.v] * scale_v - from_v) * across_u -
                         (blade.centre[i + 1][axes.u] * scale_u - from_u) * across_v;
-    const double rise = blade.v[static_cast<std::size_t>(i) + 1] - blade.v[static_cast<std::size_t>(i)];
+    const double rise =
+        blade.v[static_cast<std::size_t>(i) + 1] - blade.v[static_cast<std::size_t>(i)];
     const double gain = std::abs(step) > 1e-9 ? rise / step : 0.0;
     piece.along_u = -across_v * gain;
     piece.along_v = across_u * gain;
-    piece.along0 = blade.v[static_cast<std::size_t>(i)] - piece.along_u * from_u - piece.along_v * from_v;
+    piece.along0 =
+        blade.v[static_cast<std::size_t>(i)] - piece.along_u * from_u - piece.along_v * from_v;
     piece.clip(slab_.low, 1);
     piece.clip(slab_.high, -1);
     if (piece.count >= 3)
@@ -176,8 +178,10 @@ void SlabRaster::settle(std::int32_t blade) {
         const int covered = std::popcount(mask_[t]);
         all_[t] |= mask_[t];
         total_[t] = static_cast<std::uint16_t>(total_[t] + covered);
-        // By lot, weighted by area: the larger share would always win for the wide, dark lower parts.
-        if (base::hash_unit(kOwnerStream, t, static_cast<std::uint64_t>(blade)) * total_[t] < covered) {
+        // By lot, weighted by area: the larger share would always win for the wide, dark lower
+        // parts.
+        if (base::hash_unit(kOwnerStream, t, static_cast<std::uint64_t>(blade)) * total_[t] <
+            covered) {
             texels_[t].blade = blade;
             texels_[t].along = along_sum_[t] / static_cast<float>(covered);
         }

@@ -57,10 +57,13 @@ FileEntry entry_of(const fs::path& path, const std::string& name, const json& va
 }
 
 bool is_our_name(const std::string& name) {
-    constexpr const char* kStems[] = {"layers", "slices", "slabs", "slab_fibres", "columns", "column_fibres", "correction"};
-    const bool texture = name.ends_with(".ktx2") && std::ranges::any_of(kStems, [&](const char* stem) { return name.starts_with(stem); });
-    return texture || name == grass::kFarLightFile || name == grass::kFarLightPicture || name == grass::kBladesFile ||
-           name == grass::kVolumeFile || name == grass::kPreviewFile;
+    constexpr const char* kStems[] = {"layers",  "slices",        "slabs",     "slab_fibres",
+                                      "columns", "column_fibres", "correction"};
+    const bool texture =
+        name.ends_with(".ktx2") &&
+        std::ranges::any_of(kStems, [&](const char* stem) { return name.starts_with(stem); });
+    return texture || name == grass::kFarLightFile || name == grass::kFarLightPicture ||
+           name == grass::kBladesFile || name == grass::kVolumeFile || name == grass::kPreviewFile;
 }
 
 bool is_unchanged(const fs::path& directory, const FileEntry& entry) {
@@ -95,7 +98,8 @@ std::vector<FileEntry> listed_files(const fs::path& directory, const char* list)
     return entries;
 }
 
-std::vector<std::byte> checked_file(const fs::path& directory, const FileEntry& entry, const char* list) {
+std::vector<std::byte> checked_file(const fs::path& directory, const FileEntry& entry,
+                                    const char* list) {
     const fs::path path = directory / entry.name;
     const auto refuse = [&](std::string_view what, const std::string& found,
                             const std::string& expected) {
@@ -122,10 +126,13 @@ std::vector<std::string> foreign_files(const fs::path& directory) {
     } catch (const base::Error&) { // none, or damaged: what looks like ours may still be replaced
     }
     // A listing alone makes no file ours: it must be the one that was written.
-    std::erase_if(entries, [&](const FileEntry& entry) { return !is_our_name(entry.name) && !is_unchanged(directory, entry); });
+    std::erase_if(entries, [&](const FileEntry& entry) {
+        return !is_our_name(entry.name) && !is_unchanged(directory, entry);
+    });
     std::vector<std::string> names = unlisted_files(directory, entries);
     // A person's own file says more than a folder beside it.
-    std::ranges::stable_partition(names, [&](const std::string& name) { return fs::is_regular_file(directory / name); });
+    std::ranges::stable_partition(
+        names, [&](const std::string& name) { return fs::is_regular_file(directory / name); });
     std::erase_if(names, is_our_name);
     return names;
 }

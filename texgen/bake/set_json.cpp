@@ -25,7 +25,8 @@ ordered_json rgb(const shared::vec3& c) {
 }
 
 ordered_json floor_of(const grass::Floor& floor) {
-    return {{"cover", decimal(floor.cover)}, {"moss", rgb(floor.moss)}, {"litter", rgb(floor.litter)}};
+    return {
+        {"cover", decimal(floor.cover)}, {"moss", rgb(floor.moss)}, {"litter", rgb(floor.litter)}};
 }
 
 ordered_json look(const shared::GrassAppearance& a) {
@@ -62,7 +63,9 @@ ordered_json gloss_of(const shared::GrassGloss& gloss) {
 }
 
 ordered_json march_json(const grass::FarMedium& march) {
-    ordered_json out = {{"columns", grass::kColumnsFile}, {"column_fibres", grass::kColumnFibresFile}, {"correction", grass::kCorrectionFile}};
+    ordered_json out = {{"columns", grass::kColumnsFile},
+                        {"column_fibres", grass::kColumnFibresFile},
+                        {"correction", grass::kCorrectionFile}};
     for (int k = 0; k < shared::kMarchSets; ++k) {
         out["slabs"].push_back(grass::slabs_file(k));
         out["slab_fibres"].push_back(grass::slab_fibres_file(k));

@@ -46,10 +46,12 @@ void keep_alpha(TexelImage& image, double ratio) {
         total += texel.coverage;
         candidates.push_back({texel.coverage * ratio - lot_of(texel.blade), t});
     }
-    // As many as are asked for: those whose coverage exceeds their blade's number, give or take a few.
-    const auto opaque = std::min(candidates.size(), static_cast<std::size_t>(std::llround(total * ratio)));
-    std::ranges::nth_element(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(opaque), {},
-                             [](const Candidate& c) { return std::tuple(-c.margin, c.texel); });
+    // As many as are asked for: those whose coverage exceeds their blade's number, give or take a
+    // few.
+    const auto opaque =
+        std::min(candidates.size(), static_cast<std::size_t>(std::llround(total * ratio)));
+    std::ranges::nth_element(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(opaque),
+                             {}, [](const Candidate& c) { return std::tuple(-c.margin, c.texel); });
     double shown = 0, thin = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
         float& coverage = image.texels[candidates[i].texel].coverage;
@@ -59,7 +61,8 @@ void keep_alpha(TexelImage& image, double ratio) {
             coverage = static_cast<float>(if_opaque);
             shown += coverage;
         } else { // so that a texel of this coverage keeps it in the mean
-            coverage = static_cast<float>(std::clamp((coverage - chance * if_opaque) / (1 - chance), 0.0, kThin));
+            coverage = static_cast<float>(
+                std::clamp((coverage - chance * if_opaque) / (1 - chance), 0.0, kThin));
             thin += coverage;
         }
     }
@@ -80,7 +83,8 @@ void Coder::code(const TexelImage& image, std::uint8_t* id, std::uint8_t* shape)
                 continue;
             const double steps = texel.coverage * 255.0 + carry;
             const bool half = texel.coverage >= 0.5f; // no rounding across what an alpha test asks
-            const int coverage = std::clamp(static_cast<int>(std::lround(steps)), half ? 128 : 0, half ? 255 : 127);
+            const int coverage =
+                std::clamp(static_cast<int>(std::lround(steps)), half ? 128 : 0, half ? 255 : 127);
             carry = std::clamp(steps - coverage, -0.5, 0.5);
             if (coverage == 0)
                 continue;

@@ -7,16 +7,17 @@
 
 namespace sward::texgen {
 
-/// Number of a blade in [0, 1): golden-ratio steps, so that any share of the blades is met evenly; the same in all
-/// variants for the blades of their common border.
+/// Number of a blade in [0, 1): golden-ratio steps, so that any share of the blades is met evenly;
+/// the same in all variants for the blades of their common border.
 [[nodiscard]] double lot_of(std::int32_t blade);
 
 /// Texels at least half covered over mean coverage: what an alpha test sees of an image.
 [[nodiscard]] double alpha_ratio(const TexelImage& image);
 
-/// A mip that keeps what an alpha test sees (B5): a blade's texels become more than half opaque where their coverage exceeds the
-/// blade's own number, as many as `ratio` asks for, so that representative blades stay whole and none is averaged
-/// into grey; the others become thinner. The mean coverage stays, of the image and of texels of any coverage.
+/// A mip that keeps what an alpha test sees (B5): a blade's texels become more than half opaque
+/// where their coverage exceeds the blade's own number, as many as `ratio` asks for, so that
+/// representative blades stay whole and none is averaged into grey; the others become thinner. The
+/// mean coverage stays, of the image and of texels of any coverage.
 void keep_alpha(TexelImage& image, double ratio);
 
 /// Codes the images of one slab (shaders/shared/grass_layout.h).

@@ -39,7 +39,8 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     std::vector<Part> parts; // the longest work first, so that two workers end together
     const auto add = [&](std::string name, const grass::TextureArray& planes) {
         parts.push_back({std::move(name), [&planes, &options] {
-                             return grass::encode_ktx2(options.block ? grass::id_planes(planes) : planes,
+                             return grass::encode_ktx2(options.block ? grass::id_planes(planes)
+                                                                     : planes,
                                                        options.compression);
                          }});
     };
@@ -62,7 +63,9 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
                              }});
     }
     const auto add_march = [&](std::string name, const grass::TextureArray& array) {
-        parts.push_back({std::move(name), [&array, &options] { return grass::encode_ktx2(array, options.compression); }});
+        parts.push_back({std::move(name), [&array, &options] {
+                             return grass::encode_ktx2(array, options.compression);
+                         }});
     };
     for (int k = 0; k < shared::kMarchSets; ++k) {
         add_march(grass::slabs_file(k), set.march.slabs[static_cast<std::size_t>(k)].density);
@@ -71,14 +74,16 @@ std::vector<Part> parts_of(const grass::GrassSet& set, const BakeOptions& option
     add_march(grass::kColumnsFile, set.march.columns.density);
     add_march(grass::kColumnFibresFile, set.march.columns.fibres);
     parts.push_back({grass::kCorrectionFile, [&set, &options] {
-                         return grass::encode_ktx2(grass::encode_correction(set.march), options.compression);
+                         return grass::encode_ktx2(grass::encode_correction(set.march),
+                                                   options.compression);
                      }});
     if (!set.blades.empty()) // an imported volume's set is far-only
         parts.push_back({grass::kBladesFile, [&set] {
                              return grass::encode_blades(set.blades, set.variant_begin, set.side_m);
                          }});
     parts.push_back({grass::kFarLightFile, [&set, &options] {
-                         return grass::encode_ktx2(grass::encode_far_light(set.far_light), options.compression);
+                         return grass::encode_ktx2(grass::encode_far_light(set.far_light),
+                                                   options.compression);
                      }});
     return parts;
 }
@@ -104,7 +109,8 @@ std::vector<FileEntry> write_files(const grass::GrassSet& set, const fs::path& f
     }
     const fs::path picture = folder / grass::kFarLightPicture;
     assets::write_exr(picture, far_light_picture(set.far_light));
-    files.push_back(entry_of(grass::kFarLightPicture, base::read_file(picture, std::uint64_t{1} << 30)));
+    files.push_back(
+        entry_of(grass::kFarLightPicture, base::read_file(picture, std::uint64_t{1} << 30)));
     if (options.preview) {
         const StepTimer timer("preview");
         const fs::path path = options.preview_file.value_or(folder / grass::kPreviewFile);
@@ -127,7 +133,8 @@ void require_set_place(const fs::path& directory) {
     if (!fs::is_directory(status))
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file",
                                 "a directory for the set, or none yet");
-    // The directory that stands there is removed: never one that holds something else, were it beside a set.
+    // The directory that stands there is removed: never one that holds something else, were it
+    // beside a set.
     if (const std::vector<std::string> foreign = foreign_files(directory); !foreign.empty())
         throw base::input_error(base::ExitCode::kIo, directory, 0, "output",
                                 "a file that is not the set's: " + base::printable(foreign.front()),

@@ -39,14 +39,17 @@ std::string shown(const BakeCommandOptions& o) {
 
 /// A smaller --size has room for fewer levels; who asked for levels as well is told instead.
 void lower_levels(Preset& preset, const BakeCommandOptions& o) {
-    const auto given = [&](const char* key) { return std::ranges::find(o.overrides, key, &Override::key) != o.overrides.end(); };
+    const auto given = [&](const char* key) {
+        return std::ranges::find(o.overrides, key, &Override::key) != o.overrides.end();
+    };
     if (!given("texture.size") || given("texture.levels"))
         return;
     const std::int64_t wanted = preset.levels;
     while (preset.levels > 1 && preset.size >> (preset.levels - 1) < kLeastLevelTexels)
         --preset.levels;
     if (preset.levels < wanted)
-        base::log_info(fmt::format("--size {}: {} levels instead of {}, the last of {} texels", preset.size, preset.levels, wanted,
+        base::log_info(fmt::format("--size {}: {} levels instead of {}, the last of {} texels",
+                                   preset.size, preset.levels, wanted,
                                    preset.size >> (preset.levels - 1)));
 }
 
@@ -62,9 +65,12 @@ Preset preset_of(const BakeCommandOptions& o) {
         check_preset(preset, path);
     } catch (const base::Error& error) { // the file was right by itself: it is the options
         std::string text = error.what();
-        if (const std::string file = base::printable(path.string(), 300) + ": "; text.starts_with(file))
+        if (const std::string file = base::printable(path.string(), 300) + ": ";
+            text.starts_with(file))
             text.erase(0, file.size());
-        throw base::Error(error.code() == base::ExitCode::kBadInput ? base::ExitCode::kUsage : error.code(), shown(o) + ": " + text);
+        throw base::Error(error.code() == base::ExitCode::kBadInput ? base::ExitCode::kUsage
+                                                                    : error.code(),
+                          shown(o) + ": " + text);
     }
     return preset;
 }
@@ -152,10 +158,12 @@ int run_bake(const BakeCommandOptions& o) {
     const grass::GrassSet set = bake_set(preset, options);
     const std::vector<FileEntry> files = write_set(set, preset, o.output, options);
     if (o.export_format != ExportFormat::kNone)
-        export_pictures(set, export_directory(o.output, o.export_format), o.export_format, o.threads);
+        export_pictures(set, export_directory(o.output, o.export_format), o.export_format,
+                        o.threads);
     if (o.json) {
         SetReport report = report_of(set, o.output.string(), files);
-        report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        report.seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         print_result(report_json(report));
     }
     return 0;

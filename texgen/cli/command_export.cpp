@@ -24,24 +24,30 @@ namespace {
 namespace fs = std::filesystem;
 
 const char* name_of(ExportTarget target) {
-    return target == ExportTarget::kGltf ? "gltf" : target == ExportTarget::kTextures ? "textures" : "blender";
+    return target == ExportTarget::kGltf       ? "gltf"
+           : target == ExportTarget::kTextures ? "textures"
+                                               : "blender";
 }
 
 /// An export in the set's own directory would make it no set.
 void refuse_inside_set(const ExportCommandOptions& o) {
     std::error_code ignored;
-    const fs::path set = fs::weakly_canonical(o.input, ignored), place = fs::weakly_canonical(o.output, ignored);
+    const fs::path set = fs::weakly_canonical(o.input, ignored),
+                   place = fs::weakly_canonical(o.output, ignored);
     if (place == set || place.parent_path() == set)
-        throw base::input_error(base::ExitCode::kIo, o.output, 0, "--output", place == set ? "the set itself" : "a place inside the set",
+        throw base::input_error(base::ExitCode::kIo, o.output, 0, "--output",
+                                place == set ? "the set itself" : "a place inside the set",
                                 "a place outside of it");
 }
 
 void require_blades(const grass::GrassSet& set, const fs::path& directory) {
     if (set.blades.empty())
-        throw base::input_error(base::ExitCode::kBadInput, directory, 0, "blades", "none (a far-only set)", "blades; --for textures needs none");
+        throw base::input_error(base::ExitCode::kBadInput, directory, 0, "blades",
+                                "none (a far-only set)", "blades; --for textures needs none");
 }
 
-void write_for_blender(const grass::GrassSet& set, const ExportCommandOptions& o, const fs::path& folder) {
+void write_for_blender(const grass::GrassSet& set, const ExportCommandOptions& o,
+                       const fs::path& folder) {
     base::write_file_atomic(folder / kMeshFile, encode_blade_meshes(set, 1, o.threads));
     base::write_file_atomic(folder / grass::kBladesFile,
                             grass::encode_blades(set.blades, set.variant_begin, set.side_m));
@@ -50,25 +56,36 @@ void write_for_blender(const grass::GrassSet& set, const ExportCommandOptions& o
     if (volume != files.end())
         base::write_file_atomic(folder / grass::kVolumeFile, checked_file(o.input, *volume));
     else
-        base::log_warning(fmt::format("{}: no {}: meshes and points alone are exported", base::printable(o.input.string(), 300), grass::kVolumeFile));
+        base::log_warning(fmt::format("{}: no {}: meshes and points alone are exported",
+                                      base::printable(o.input.string(), 300), grass::kVolumeFile));
 }
 
-void write_files(const grass::GrassSet& set, const ExportCommandOptions& o, const fs::path& folder) {
+void write_files(const grass::GrassSet& set, const ExportCommandOptions& o,
+                 const fs::path& folder) {
     if (o.target == ExportTarget::kTextures)
-        return write_textures(set, o.input, folder, {.threads = o.threads, .compression = o.compression.zstd_level, .atlases = o.atlases});
+        return write_textures(
+            set, o.input, folder,
+            {.threads = o.threads, .compression = o.compression.zstd_level, .atlases = o.atlases});
     if (o.target == ExportTarget::kBlender)
         return write_for_blender(set, o, folder);
-    base::write_file_atomic(folder / kMeshFile, encode_blade_meshes(set, static_cast<int>(std::size(kMeshLods)), o.threads));
+    base::write_file_atomic(
+        folder / kMeshFile,
+        encode_blade_meshes(set, static_cast<int>(std::size(kMeshLods)), o.threads));
 }
 
-void report(const grass::GrassSet& set, const ExportCommandOptions& o, const std::vector<FileEntry>& files) {
+void report(const grass::GrassSet& set, const ExportCommandOptions& o,
+            const std::vector<FileEntry>& files) {
     std::uint64_t bytes = 0;
-    nlohmann::ordered_json root = {{"export", o.output.string()}, {"set", o.input.string()}, {"for", name_of(o.target)}, {"preset", set.name}};
+    nlohmann::ordered_json root = {{"export", o.output.string()},
+                                   {"set", o.input.string()},
+                                   {"for", name_of(o.target)},
+                                   {"preset", set.name}};
     for (const FileEntry& file : files) {
         bytes += file.bytes;
         root["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
     }
-    base::log_info(fmt::format("{}: {} files for {}, {}", o.output.string(), files.size() + 1, name_of(o.target), readable_bytes(bytes)));
+    base::log_info(fmt::format("{}: {} files for {}, {}", o.output.string(), files.size() + 1,
+                               name_of(o.target), readable_bytes(bytes)));
     if (o.json)
         print_result(root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }

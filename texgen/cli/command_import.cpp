@@ -42,8 +42,9 @@ void refuse_foreign_options(const ImportOptions& o, bool stack) {
     const ImportOptions usual;
     const auto refuse = [&](bool given, const char* option, const char* of) {
         if (given)
-            throw base::Error(base::ExitCode::kUsage, fmt::format("{}: found with {}, expected with {}", option,
-                                                                  stack ? "a stack of pictures" : "a volume", of));
+            throw base::Error(base::ExitCode::kUsage,
+                              fmt::format("{}: found with {}, expected with {}", option,
+                                          stack ? "a stack of pictures" : "a volume", of));
     };
     if (stack) {
         refuse(o.z_up, "--up", "a .vdb");
@@ -62,14 +63,18 @@ Volume read_input(const ImportOptions& o) {
     if (stack)
         return read_stack_volume(o.input, o.side_m, o.canopy_m);
     const std::vector<std::byte> bytes = read_vdb_file(o.input);
-    return VdbFile(bytes, o.input).read_volume({.z_up = o.z_up, .scale = o.scale, .period_m = o.period_m});
+    return VdbFile(bytes, o.input)
+        .read_volume({.z_up = o.z_up, .scale = o.scale, .period_m = o.period_m});
 }
 
 /// The input as a volume, made periodic if that is asked for.
 Volume load(const ImportOptions& options) {
     Volume volume = read_input(options);
     if (options.seam)
-        return seam_volume(volume, options.cut < 1 ? SeamCut{.share = options.cut} : SeamCut{.texels = static_cast<int>(options.cut)}, options.input);
+        return seam_volume(volume,
+                           options.cut < 1 ? SeamCut{.share = options.cut}
+                                           : SeamCut{.texels = static_cast<int>(options.cut)},
+                           options.input);
     return volume;
 }
 
@@ -78,16 +83,24 @@ Volume load(const ImportOptions& options) {
 int run_import(const ImportOptions& options) {
     base::set_verbosity(options.verbosity);
     if (options.seam && !(options.cut > 0))
-        throw base::Error(base::ExitCode::kUsage, "--cut: found 0, expected a share of the side below 1, or texels from 3");
+        throw base::Error(base::ExitCode::kUsage,
+                          "--cut: found 0, expected a share of the side below 1, or texels from 3");
     const OutputParents parents(options.output);
     require_set_place(options.output);
     const Volume volume = load(options);
     const JointReport joint = volume.cells.x == volume.cells.z ? joint_of(volume) : JointReport{};
     if (joint.ratio() > kMostJointRatio)
-        base::log_warning(fmt::format("{}: the joint's gradient is {}: the volume is not periodic{}", options.input.string(), joint.words(),
-                                      options.seam ? "; try another --cut" : ", --seam makes it so"));
-    ImportQuery query{.name = options.name, .density = options.density, .size = options.size, .layers = options.layers,
-                      .slices = options.slices, .levels = options.levels, .far_rays = options.far_rays, .threads = options.threads};
+        base::log_warning(fmt::format(
+            "{}: the joint's gradient is {}: the volume is not periodic{}", options.input.string(),
+            joint.words(), options.seam ? "; try another --cut" : ", --seam makes it so"));
+    ImportQuery query{.name = options.name,
+                      .density = options.density,
+                      .size = options.size,
+                      .layers = options.layers,
+                      .slices = options.slices,
+                      .levels = options.levels,
+                      .far_rays = options.far_rays,
+                      .threads = options.threads};
     if (query.name.empty())
         query.name = volume.preset.empty() ? plain_name(options.input) : volume.preset;
     grass::GrassSet set = import_volume(volume, query, options.input);

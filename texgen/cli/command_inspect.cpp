@@ -62,8 +62,8 @@ std::string inspect_texture(const fs::path& path, bool json) {
                        readable_bytes(unpacked));
 }
 
-/// The bytes of a volume. Where a set.json beside it lists it, its hash must be right before anything
-/// parses it.
+/// The bytes of a volume. Where a set.json beside it lists it, its hash must be right before
+/// anything parses it.
 std::vector<std::byte> volume_bytes(const fs::path& path) {
     std::error_code error;
     fs::path folder = path.parent_path();
@@ -109,8 +109,9 @@ int run_inspect(const InspectOptions& options) {
         throw base::input_error(ExitCode::kBadInput, options.input, 0, "kind of file",
                                 extension.empty() ? "no extension" : extension.string(),
                                 "a grass set's directory, a .ktx2 or a .vdb");
-    const std::string text = directory || extension.empty() ? inspect_set(options.input, options.json)
-                             : extension == ".vdb" ? inspect_vdb(options.input, options.json)
+    const std::string text = directory || extension.empty()
+                                 ? inspect_set(options.input, options.json)
+                             : extension == ".vdb"  ? inspect_vdb(options.input, options.json)
                              : extension == ".ktx2" ? inspect_texture(options.input, options.json)
                                                     : inspect_set(options.input, options.json);
     print_result(text);

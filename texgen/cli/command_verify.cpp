@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every file against its hash, then every number against its limit. Nothing is parsed before its hash is
-// right.
+// Every file against its hash, then every number against its limit. Nothing is parsed before its
+// hash is right.
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -18,7 +18,8 @@ namespace {
 
 using base::ExitCode;
 
-constexpr std::uint64_t kSoonBytes = std::uint64_t{32} << 20; ///< a set that is checked in a second needs no progress
+constexpr std::uint64_t kSoonBytes = std::uint64_t{32}
+                                     << 20; ///< a set that is checked in a second needs no progress
 
 /// Throws the first thing that is wrong.
 std::vector<FileEntry> verify(const std::filesystem::path& directory) {
@@ -30,7 +31,8 @@ std::vector<FileEntry> verify(const std::filesystem::path& directory) {
     for (const FileEntry& entry : entries) {
         const std::vector<std::byte> bytes = checked_file(directory, entry);
         base::log_debug(fmt::format("{}: {} bytes, SHA-256 as listed", entry.name, bytes.size()));
-        if (entry.name == grass::kVolumeFile && inspect_volume(bytes, directory / entry.name).active_voxels == 0)
+        if (entry.name == grass::kVolumeFile &&
+            inspect_volume(bytes, directory / entry.name).active_voxels == 0)
             throw base::input_error(ExitCode::kBadInput, directory / entry.name, 0, "density",
                                     "no voxel", "blades");
         progress.advance(entry.bytes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One function a command. Each returns the exit code of a run that did its work, and throws base::Error
-// where it could not.
+// One function a command. Each returns the exit code of a run that did its work, and throws
+// base::Error where it could not.
 #pragma once
 
 #include "texgen/cli/options.h"

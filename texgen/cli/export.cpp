@@ -45,14 +45,17 @@ void write_pngs(const TexelDecoder& decoder, const ImageSource& source, const fs
 }
 
 void write_exr(const TexelDecoder& decoder, const ImageSource& source, const fs::path& folder) {
-    scene::Image image{source.array->width, source.array->height,
+    scene::Image image{source.array->width,
+                       source.array->height,
                        {"R", "G", "B", "A", "tangent.X", "tangent.Y", "tangent.Z", "rank", "seed",
                         "along", "height", "offset.X", "offset.Z", "species"},
-                       {}, {}};
+                       {},
+                       {}};
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const TexelValues v = decoder.texel(source, x, y);
-            const auto a = static_cast<float>(v.coverage); // colour is premultiplied, as in every EXR
+            const auto a =
+                static_cast<float>(v.coverage); // colour is premultiplied, as in every EXR
             image.texels.insert(image.texels.end(),
                                 {v.albedo.x * a, v.albedo.y * a, v.albedo.z * a, a, v.tangent.x,
                                  v.tangent.y, v.tangent.z, static_cast<float>(v.rank),
@@ -72,8 +75,8 @@ std::string stack_json(const grass::GrassSet& set, const std::vector<ImageSource
                          {"tangent", "xyz * 0.5 + 0.5, y up"},
                          {"height", "0 ground .. 1 canopy_m"}};
     for (const ImageSource& source : sources)
-        root["images"].push_back({{"name", source.name},
-                                  {source.slice ? "middle_m" : "height_m", source.place_m}});
+        root["images"].push_back(
+            {{"name", source.name}, {source.slice ? "middle_m" : "height_m", source.place_m}});
     return root.dump(2) + "\n";
 }
 
@@ -87,7 +90,8 @@ fs::path export_directory(const fs::path& set, ExportFormat format) {
 void require_export_place(const fs::path& directory) {
     base::require_writable(directory, base::PendingOutput::Kind::kDirectory);
     std::error_code error;
-    for (fs::directory_iterator it(directory, error), end; !error && it != end; it.increment(error)) {
+    for (fs::directory_iterator it(directory, error), end; !error && it != end;
+         it.increment(error)) {
         const std::string name = it->path().filename().string();
         if (name != kStackJson && !name.starts_with(kVariantPrefix))
             throw base::input_error(base::ExitCode::kIo, directory, 0, "--export",

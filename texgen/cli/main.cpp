@@ -43,12 +43,15 @@ int main(int argc, char** argv) {
     } catch (const std::bad_alloc&) {
         return fail(base::ExitCode::kOverLimit, "out of memory");
     } catch (const std::filesystem::filesystem_error& error) {
-        const std::filesystem::path path = error.path1().empty() ? std::filesystem::path(".") : error.path1();
-        return fail(base::ExitCode::kIo, base::printable(path.string(), 300) + ": cannot use: found " + error.code().message() +
+        const std::filesystem::path path =
+            error.path1().empty() ? std::filesystem::path(".") : error.path1();
+        return fail(base::ExitCode::kIo, base::printable(path.string(), 300) +
+                                             ": cannot use: found " + error.code().message() +
                                              ", expected a place that exists");
     } catch (const std::system_error& error) { // no thread, no handle
-        return fail(base::ExitCode::kOverLimit, std::string("the system's limits: found ") + error.code().message() +
-                                                    ", expected room for a thread: see --threads and ulimit");
+        return fail(base::ExitCode::kOverLimit,
+                    std::string("the system's limits: found ") + error.code().message() +
+                        ", expected room for a thread: see --threads and ulimit");
     } catch (const std::exception& error) {
         return fail(base::ExitCode::kFailure, error.what());
     }

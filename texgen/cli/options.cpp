@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every option of texgen, declared once. Values are read here and not by CLI11, whose own conversions
-// follow the locale and take an empty text for 0.
+// Every option of texgen, declared once. Values are read here and not by CLI11, whose own
+// conversions follow the locale and take an empty text for 0.
 #include "texgen/cli/options.h"
 
 #include <algorithm>
@@ -53,7 +53,8 @@ CLI::Option* declare_path(CLI::App& app, const std::string& name, const std::str
         if (text.empty() || text.find('\0') != std::string::npos)
             throw usage(shown_name(name), text, "a name");
         if (text.front() == '-') // an option that stands where the name was forgotten
-            throw usage(shown_name(name), text, fmt::format("a name (./{} for one with a dash)", base::printable(text)));
+            throw usage(shown_name(name), text,
+                        fmt::format("a name (./{} for one with a dash)", base::printable(text)));
         take(text);
     });
 }
@@ -72,7 +73,8 @@ fs::path directory_name(const fs::path& path) {
 void declare_common(CLI::App& app, CommonOptions& o) {
     declare(app, "--threads", "N", "worker threads, 0 for one a core; the result is the same",
             [&o](const std::string& text) {
-                const std::string expected = fmt::format("a whole number from 0 to {}", kMaxThreads);
+                const std::string expected =
+                    fmt::format("a whole number from 0 to {}", kMaxThreads);
                 const std::int64_t n = whole_number("--threads", text, expected);
                 if (n < 0 || n > kMaxThreads)
                     throw usage("--threads", text, expected);
@@ -80,7 +82,8 @@ void declare_common(CLI::App& app, CommonOptions& o) {
             });
     app.add_flag("--json", o.json, "the report as JSON on standard output");
     const auto verbosity = [&](const char* name, const char* help, base::Verbosity value) {
-        return app.add_flag_callback(name, [&o, value] { o.verbosity = value; }, help);
+        return app.add_flag_callback(
+            name, [&o, value] { o.verbosity = value; }, help);
     };
     verbosity("-q,--quiet", "errors and warnings only", base::Verbosity::kQuiet)
         ->excludes(verbosity("-v,--verbose", "time each step", base::Verbosity::kVerbose));
@@ -113,7 +116,8 @@ void declare_overrides(CLI::App& app, BakeCommandOptions& o) {
         {"--layers", "texture.layers", "horizontal layers at level 0"},
         {"--slices", "texture.slices", "vertical slices an axis at level 0"},
         {"--levels", "texture.levels", "levels, each of half the size, layers and slices"},
-        {"--far-rays", "texture.far_rays", "rays of a view of the far table and the march's correction: less noise, more time"},
+        {"--far-rays", "texture.far_rays",
+         "rays of a view of the far table and the march's correction: less noise, more time"},
     };
     for (const auto& entry : kOverrides)
         declare(app, entry.option, "N", entry.help, [&o, entry](const std::string& text) {
@@ -135,17 +139,19 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
                  [&o](const fs::path& path) { o.output = directory_name(path); });
     declare_overrides(app, o);
     declare(app, "--height-map", "linear|top",
-            "B1: one height map a variant instead of an image a layer, for little memory; top: finer near "
+            "B1: one height map a variant instead of an image a layer, for little memory; top: "
+            "finer near "
             "the canopy's top",
             [&o](const std::string& text) {
                 if (text != "linear" && text != "top")
                     throw usage("--height-map", text, "linear or top");
                 o.height_map = text;
             });
-    declare(app, "--compression", "none|zstd|zstd:N|bc",
-            "of the textures: zstd (level 3) as it stands, N up to 19 smaller and slower; bc: shape "
-            "planes as BC5, a quarter less on the GPU",
-            [&o](const std::string& text) { o.compression = parse_compression(text); });
+    declare(
+        app, "--compression", "none|zstd|zstd:N|bc",
+        "of the textures: zstd (level 3) as it stands, N up to 19 smaller and slower; bc: shape "
+        "planes as BC5, a quarter less on the GPU",
+        [&o](const std::string& text) { o.compression = parse_compression(text); });
     declare(app, "--export", "png|exr",
             "also layers and slices of level 0 as pictures, in the directory DIR-png or DIR-exr",
             [&o](const std::string& text) {
@@ -156,23 +162,30 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
     CLI::Option* preview =
         declare_path(app, "--preview", "FILE", "contact sheet as FILE, instead of DIR/preview.png",
                      [&o](const fs::path& path) { o.preview_file = path; });
-    app.add_flag_callback("--no-preview", [&o] { o.preview = false; }, "no contact sheet")
+    app.add_flag_callback(
+           "--no-preview", [&o] { o.preview = false; }, "no contact sheet")
         ->excludes(preview);
-    app.add_flag_callback("--no-volume", [&o] { o.volume = false; },
-                          "leave out volume.vdb (the renderer does not read it)");
-    app.add_flag("--checknan", o.check_nan, "look at every number written: exit 1 on NaN or infinity");
+    app.add_flag_callback(
+        "--no-volume", [&o] { o.volume = false; },
+        "leave out volume.vdb (the renderer does not read it)");
+    app.add_flag("--checknan", o.check_nan,
+                 "look at every number written: exit 1 on NaN or infinity");
     app.add_flag("--dry-run", o.dry_run,
-                 "check everything and tell what would be made and what it takes; write nothing; needs no --output");
+                 "check everything and tell what would be made and what it takes; write nothing; "
+                 "needs no --output");
     app.add_flag("--list", o.list, "the shipped presets, a line each");
-    app.add_flag_callback("--no-wrap", [&o] { o.wrap = false; },
-                          "a test tool: cut blades at the patch's edge, so that the set shows its joints");
+    app.add_flag_callback(
+        "--no-wrap", [&o] { o.wrap = false; },
+        "a test tool: cut blades at the patch's edge, so that the set shows its joints");
     declare_common(app, o);
 }
 
 /// A finite number in [low, high], read without a locale.
-void declare_real(CLI::App& app, const std::string& name, const std::string& help, std::pair<double, double> range, double& out) {
+void declare_real(CLI::App& app, const std::string& name, const std::string& help,
+                  std::pair<double, double> range, double& out) {
     declare(app, name, "N", help, [=, &out](const std::string& text) {
-        const std::string expected = fmt::format("a number from {} to {}", range.first, range.second);
+        const std::string expected =
+            fmt::format("a number from {} to {}", range.first, range.second);
         double value = 0;
         const char* end = text.data() + text.size();
         const auto [stop, error] = std::from_chars(text.data(), end, value);
@@ -182,9 +195,11 @@ void declare_real(CLI::App& app, const std::string& name, const std::string& hel
     });
 }
 
-void declare_count(CLI::App& app, const std::string& name, const std::string& help, std::pair<int, int> range, int& out) {
+void declare_count(CLI::App& app, const std::string& name, const std::string& help,
+                   std::pair<int, int> range, int& out) {
     declare(app, name, "N", help, [=, &out](const std::string& text) {
-        const std::string expected = fmt::format("a whole number from {} to {}", range.first, range.second);
+        const std::string expected =
+            fmt::format("a whole number from {} to {}", range.first, range.second);
         const std::int64_t n = whole_number(name, text, expected);
         if (n < range.first || n > range.second)
             throw usage(name, text, expected);
@@ -193,20 +208,29 @@ void declare_count(CLI::App& app, const std::string& name, const std::string& he
 }
 
 void declare_cut(CLI::App& app, double& cut) {
-    declare_real(app, "--cut", "border that is laid over the other side: a share of the side below 1, else texels", {0, 8192}, cut);
+    declare_real(
+        app, "--cut",
+        "border that is laid over the other side: a share of the side below 1, else texels",
+        {0, 8192}, cut);
 }
 
 void declare_up(CLI::App& app, bool& z_up) {
-    declare(app, "--up", "AXIS", "the file's upward axis, y (default) or z (Blender)", [&z_up](const std::string& text) {
-        if (text != "y" && text != "z")
-            throw usage("--up", text, "y or z");
-        z_up = text == "z";
-    });
+    declare(app, "--up", "AXIS", "the file's upward axis, y (default) or z (Blender)",
+            [&z_up](const std::string& text) {
+                if (text != "y" && text != "z")
+                    throw usage("--up", text, "y or z");
+                z_up = text == "z";
+            });
 }
 
 void declare_seam(CLI::App& app, Options& o) {
-    declare_path(app, "IN", "IN", "what is to be made seamless: a directory of pictures, a pattern (layer.%04d.png), a picture or a .vdb", o.seam.input)->required();
-    declare_path(app, "-o,--output", "OUT", "a directory for a stack, a file for a picture or a .vdb",
+    declare_path(app, "IN", "IN",
+                 "what is to be made seamless: a directory of pictures, a pattern "
+                 "(layer.%04d.png), a picture or a .vdb",
+                 o.seam.input)
+        ->required();
+    declare_path(app, "-o,--output", "OUT",
+                 "a directory for a stack, a file for a picture or a .vdb",
                  [&o](const fs::path& path) { o.seam.output = directory_name(path); })
         ->required();
     declare_cut(app, o.seam.cut);
@@ -215,7 +239,8 @@ void declare_seam(CLI::App& app, Options& o) {
 }
 
 void declare_import(CLI::App& app, Options& o) {
-    declare_path(app, "FILE", "FILE", "volume of another program (.vdb), or a directory of pictures with its stack.json",
+    declare_path(app, "FILE", "FILE",
+                 "volume of another program (.vdb), or a directory of pictures with its stack.json",
                  [&o](const fs::path& path) { o.import.input = directory_name(path); })
         ->required();
     declare_path(app, "-o,--output", "DIR", "directory of the grass set",
@@ -223,60 +248,86 @@ void declare_import(CLI::App& app, Options& o) {
         ->required();
     declare_up(app, o.import.z_up);
     declare_real(app, "--scale", "metres a unit of the file", {1e-6, 1e6}, o.import.scale);
-    declare_real(app, "--period", "metres after which the volume repeats; default as the file says, else its box", {1e-4, 1e4}, o.import.period_m);
-    declare_real(app, "--side", "metres a side of a stack of pictures, instead of its stack.json's", {0.01, 1000}, o.import.side_m);
-    declare_real(app, "--canopy", "metres from the ground to the top of a stack, likewise", {1e-4, 100}, o.import.canopy_m);
-    declare_real(app, "--density", "factor on the file's density: 1 is an opaque voxel", {1e-6, 1e6}, o.import.density);
-    declare(app, "--size", "N", "texels a side at level 0, a power of two; default nearest to the voxels", [&o](const std::string& text) {
-        const std::int64_t n = whole_number("--size", text, "a power of two from 32 to 2048");
-        if (n < 32 || n > 2048 || (n & (n - 1)) != 0)
-            throw usage("--size", text, "a power of two from 32 to 2048");
-        o.import.size = static_cast<int>(n);
-    });
+    declare_real(app, "--period",
+                 "metres after which the volume repeats; default as the file says, else its box",
+                 {1e-4, 1e4}, o.import.period_m);
+    declare_real(app, "--side", "metres a side of a stack of pictures, instead of its stack.json's",
+                 {0.01, 1000}, o.import.side_m);
+    declare_real(app, "--canopy", "metres from the ground to the top of a stack, likewise",
+                 {1e-4, 100}, o.import.canopy_m);
+    declare_real(app, "--density", "factor on the file's density: 1 is an opaque voxel",
+                 {1e-6, 1e6}, o.import.density);
+    declare(app, "--size", "N",
+            "texels a side at level 0, a power of two; default nearest to the voxels",
+            [&o](const std::string& text) {
+                const std::int64_t n =
+                    whole_number("--size", text, "a power of two from 32 to 2048");
+                if (n < 32 || n > 2048 || (n & (n - 1)) != 0)
+                    throw usage("--size", text, "a power of two from 32 to 2048");
+                o.import.size = static_cast<int>(n);
+            });
     declare_count(app, "--layers", "horizontal layers at level 0", {2, 256}, o.import.layers);
     declare_count(app, "--slices", "vertical slices an axis at level 0", {2, 256}, o.import.slices);
-    declare_count(app, "--levels", "levels, each of half the size, layers and slices", {1, 4}, o.import.levels);
-    declare_count(app, "--far-rays", "rays of a view of the far table and the march's correction: less noise, more time", {256, 1048576}, o.import.far_rays);
+    declare_count(app, "--levels", "levels, each of half the size, layers and slices", {1, 4},
+                  o.import.levels);
+    declare_count(
+        app, "--far-rays",
+        "rays of a view of the far table and the march's correction: less noise, more time",
+        {256, 1048576}, o.import.far_rays);
     app.add_flag("--seam", o.import.seam, "make the volume periodic first, as texgen seam does");
     declare_cut(app, o.import.cut);
     declare(app, "--name", "NAME", "name of the set", [&o](const std::string& text) {
-        const bool plain = !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
-            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
-        });
+        const bool plain =
+            !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
+                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_';
+            });
         if (!plain)
             throw usage("--name", text, "1 to 64 letters, digits, - and _");
         o.import.name = text;
     });
     declare(app, "--compression", "none|zstd|zstd:N|bc", "of the textures, as for a preset",
             [&o](const std::string& text) { o.import.compression = parse_compression(text); });
-    app.add_flag_callback("--no-preview", [&o] { o.import.preview = false; }, "leave out preview.png");
+    app.add_flag_callback(
+        "--no-preview", [&o] { o.import.preview = false; }, "leave out preview.png");
     declare_common(app, o.import);
 }
 
 void declare_export(CLI::App& app, Options& o) {
     ExportCommandOptions& e = o.exporting;
-    declare_path(app, "SET", "SET", "a grass set's directory", [&e](const fs::path& path) { e.input = directory_name(path); })->required();
-    declare_path(app, "-o,--output", "DIR", "directory for the files; an earlier export there is replaced",
+    declare_path(app, "SET", "SET", "a grass set's directory", [&e](const fs::path& path) {
+        e.input = directory_name(path);
+    })->required();
+    declare_path(app, "-o,--output", "DIR",
+                 "directory for the files; an earlier export there is replaced",
                  [&e](const fs::path& path) { e.output = directory_name(path); })
         ->required();
     declare(app, "--for", "gltf|textures|blender",
-            "gltf: triangles with levels of detail; textures: albedo and tangents as arrays and atlases, the far field's data; blender: "
+            "gltf: triangles with levels of detail; textures: albedo and tangents as arrays and "
+            "atlases, the far field's data; blender: "
             "triangles, points and the volume",
             [&e](const std::string& text) {
                 static constexpr std::pair<const char*, ExportTarget> kTargets[] = {
-                    {"gltf", ExportTarget::kGltf}, {"textures", ExportTarget::kTextures}, {"blender", ExportTarget::kBlender}};
-                const auto* found = std::ranges::find(kTargets, text, [](const auto& entry) { return std::string_view(entry.first); });
+                    {"gltf", ExportTarget::kGltf},
+                    {"textures", ExportTarget::kTextures},
+                    {"blender", ExportTarget::kBlender}};
+                const auto* found = std::ranges::find(kTargets, text, [](const auto& entry) {
+                    return std::string_view(entry.first);
+                });
                 if (found == std::end(kTargets))
                     throw usage("--for", text, "gltf, textures or blender");
                 e.target = found->second;
             })
         ->required();
-    declare(app, "--compression", "none|zstd|zstd:N", "of the KTX2 files, as for a preset", [&e](const std::string& text) {
-        e.compression = parse_compression(text);
-        if (e.compression.block)
-            throw usage("--compression", text, "none, zstd or zstd:N: bc packs what other engines do not get");
-    });
-    app.add_flag_callback("--no-atlas", [&e] { e.atlases = false; }, "texture arrays alone");
+    declare(app, "--compression", "none|zstd|zstd:N", "of the KTX2 files, as for a preset",
+            [&e](const std::string& text) {
+                e.compression = parse_compression(text);
+                if (e.compression.block)
+                    throw usage("--compression", text,
+                                "none, zstd or zstd:N: bc packs what other engines do not get");
+            });
+    app.add_flag_callback(
+        "--no-atlas", [&e] { e.atlases = false; }, "texture arrays alone");
     declare_common(app, e);
 }
 
@@ -313,7 +364,8 @@ constexpr Subcommand kSubcommands[] = {
      [](const Options& o) { return run_verify(o.verify); }},
 };
 
-/// What CLI11 cannot say: the default command's arguments are required only where no other is named.
+/// What CLI11 cannot say: the default command's arguments are required only where no other is
+/// named.
 void check_bake(const CLI::App& app, const Options& o) {
     if (o.run) {
         for (const CLI::Option* option : app.get_options())
@@ -325,8 +377,9 @@ void check_bake(const CLI::App& app, const Options& o) {
     }
     if (o.bake.list)
         return;
-    for (const auto& [missing, name] : {std::pair{o.bake.preset.empty(), "PRESET"},
-                                        std::pair{o.bake.output.empty() && !o.bake.dry_run, "--output"}})
+    for (const auto& [missing, name] :
+         {std::pair{o.bake.preset.empty(), "PRESET"},
+          std::pair{o.bake.output.empty() && !o.bake.dry_run, "--output"}})
         if (missing)
             throw base::Error(base::ExitCode::kUsage, fmt::format("{} is required", name));
 }

@@ -49,35 +49,35 @@ struct BakeCommandOptions : CommonOptions {
     bool check_nan = false;
     bool dry_run = false; ///< `output` may then be empty
     bool list = false;    ///< of the shipped presets, and nothing else
-    bool wrap = true; ///< false: a set that shows its joints, for tests
+    bool wrap = true;     ///< false: a set that shows its joints, for tests
 };
 
 /// `texgen seam IN -o OUT`.
 struct SeamOptions : CommonOptions {
     std::filesystem::path input; ///< a directory, a pattern, a picture or a .vdb
     std::filesystem::path output;
-    double cut = 0.125;          ///< share of the side below 1, else texels
-    bool z_up = false;           ///< of a .vdb
+    double cut = 0.125; ///< share of the side below 1, else texels
+    bool z_up = false;  ///< of a .vdb
 };
 
 /// `texgen import FILE.vdb -o SET`, `texgen import DIR -o SET`.
 struct ImportOptions : CommonOptions {
     std::filesystem::path input; ///< a .vdb, or a directory of pictures with a stack.json
     std::filesystem::path output;
-    std::string name;            ///< of the set; empty: the file's own, else its name
+    std::string name; ///< of the set; empty: the file's own, else its name
     bool z_up = false;
-    double scale = 1;            ///< metres a unit of the file
-    double period_m = 0;         ///< of the volume, metres; 0: as the file says
-    double side_m = 0;           ///< of a stack of pictures; 0: as its stack.json says
-    double canopy_m = 0;         ///< likewise
-    double density = 1;          ///< factor on the density
-    int size = 0;                ///< texels a side at level 0; 0: the power of two nearest to the voxels
+    double scale = 1;    ///< metres a unit of the file
+    double period_m = 0; ///< of the volume, metres; 0: as the file says
+    double side_m = 0;   ///< of a stack of pictures; 0: as its stack.json says
+    double canopy_m = 0; ///< likewise
+    double density = 1;  ///< factor on the density
+    int size = 0;        ///< texels a side at level 0; 0: the power of two nearest to the voxels
     int layers = 16;
     int slices = 16;
     int levels = 4;
-    int far_rays = kFarRays;     ///< of a view, as in a preset
+    int far_rays = kFarRays; ///< of a view, as in a preset
     bool seam = false;
-    double cut = 0.125;          ///< as SeamOptions
+    double cut = 0.125; ///< as SeamOptions
     Compression compression;
     bool preview = true;
 };

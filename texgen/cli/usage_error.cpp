@@ -12,9 +12,8 @@
 namespace sward::texgen {
 
 base::Error usage(std::string_view option, std::string_view found, std::string_view expected) {
-    return base::Error(base::ExitCode::kUsage,
-                       fmt::format("{}: found \"{}\", expected {}", option, base::printable(found),
-                                   expected));
+    return base::Error(base::ExitCode::kUsage, fmt::format("{}: found \"{}\", expected {}", option,
+                                                           base::printable(found), expected));
 }
 
 base::Error usage_error(const CLI::App& app, const CLI::ParseError& problem) {
@@ -24,15 +23,22 @@ base::Error usage_error(const CLI::App& app, const CLI::ParseError& problem) {
     const std::vector<std::string> extras = app.remaining(true);
     const auto option = std::ranges::find_if(extras, base::is_option);
     if (option != extras.end())
-        return base::Error(base::ExitCode::kUsage, fmt::format("{}: found an unknown option, expected what `{} --help` lists{}",
-                                                               base::printable(*option), command, base::perhaps_option(at, *option)));
+        return base::Error(
+            base::ExitCode::kUsage,
+            fmt::format("{}: found an unknown option, expected what `{} --help` lists{}",
+                        base::printable(*option), command, base::perhaps_option(at, *option)));
     if (!extras.empty())
         return usage(command, extras.front(), fmt::format("what `{} --help` lists", command));
     for (const CLI::Option* each : at.get_options())
         if (each->get_expected_max() == 1 && each->count() > 1)
-            return base::Error(base::ExitCode::kUsage, fmt::format("{}: found {} times, expected once", each->get_name(), each->count()));
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(&problem)) // "--size=": CLI11 speaks of a missing N
-        return base::Error(base::ExitCode::kUsage, fmt::format("{}: expected a value", base::printable(problem.what(), 200)));
+            return base::Error(
+                base::ExitCode::kUsage,
+                fmt::format("{}: found {} times, expected once", each->get_name(), each->count()));
+    if (dynamic_cast<const CLI::ArgumentMismatch*>(
+            &problem)) // "--size=": CLI11 speaks of a missing N
+        return base::Error(
+            base::ExitCode::kUsage,
+            fmt::format("{}: expected a value", base::printable(problem.what(), 200)));
     return base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
 }
 

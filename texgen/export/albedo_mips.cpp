@@ -12,13 +12,17 @@ namespace {
 
 using shared::vec3;
 
-constexpr float kPass = 128 / 255.0f, kFail = 127 / 255.0f; // bytes on both sides of an alpha test at 1/2
-constexpr int kRings = 2; // texels around a blade that take the mean of their neighbours; beyond, coarser mips
+constexpr float kPass = 128 / 255.0f,
+                kFail = 127 / 255.0f; // bytes on both sides of an alpha test at 1/2
+constexpr int kRings =
+    2; // texels around a blade that take the mean of their neighbours; beyond, coarser mips
 
 /// Next mip of an image whose texels are all times their alpha.
 AlbedoImage halved(const AlbedoImage& image) {
-    AlbedoImage mip{std::max(1, image.width / 2), std::max(1, image.height / 2), image.repeats_v, {}};
-    const std::vector<Footprint> columns = footprints(image.width, mip.width), rows = footprints(image.height, mip.height);
+    AlbedoImage mip{
+        std::max(1, image.width / 2), std::max(1, image.height / 2), image.repeats_v, {}};
+    const std::vector<Footprint> columns = footprints(image.width, mip.width),
+                                 rows = footprints(image.height, mip.height);
     mip.texels.reserve(columns.size() * rows.size());
     for (const Footprint& row : rows)
         for (const Footprint& column : columns) {
@@ -41,7 +45,8 @@ AlbedoTexel scaled(const AlbedoTexel& t, float by) {
     return {t.albedo * by, t.alpha, t.tangent * by, t.height * by};
 }
 
-/// Moves the sum of alphas by `change` within [low, high]: each by the same share of the room that it has.
+/// Moves the sum of alphas by `change` within [low, high]: each by the same share of the room that
+/// it has.
 double spread(std::vector<float*>& alphas, double change, float low, float high) {
     const float bound = change > 0 ? high : low;
     double room = 0;
@@ -57,8 +62,11 @@ double spread(std::vector<float*>& alphas, double change, float low, float high)
 void keep_coverage(AlbedoImage& image, double share) {
     std::vector<std::uint32_t> order(image.texels.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) { return image.texels[a].alpha > image.texels[b].alpha; });
-    const auto pass = static_cast<std::size_t>(std::lround(share * static_cast<double>(order.size())));
+    std::ranges::stable_sort(order, [&](std::uint32_t a, std::uint32_t b) {
+        return image.texels[a].alpha > image.texels[b].alpha;
+    });
+    const auto pass =
+        static_cast<std::size_t>(std::lround(share * static_cast<double>(order.size())));
     std::vector<float*> opaque, thin;
     double change = 0;
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -77,7 +85,8 @@ void keep_coverage(AlbedoImage& image, double share) {
         (void)spread(thin, change, 0, kFail);
 }
 
-/// Rounds alphas to bytes; what that loses is carried to the next texel, for thin blades are a few of 255.
+/// Rounds alphas to bytes; what that loses is carried to the next texel, for thin blades are a few
+/// of 255.
 void round_alphas(AlbedoImage& image) {
     float carried = 0;
     for (AlbedoTexel& t : image.texels) {
@@ -85,7 +94,8 @@ void round_alphas(AlbedoImage& image) {
             continue;
         const float wanted = t.alpha * 255 + carried;
         const bool passes = t.alpha >= kPass;
-        const float code = std::clamp(std::round(wanted), passes ? kPass * 255 : 0.0f, passes ? 255.0f : kFail * 255);
+        const float code = std::clamp(std::round(wanted), passes ? kPass * 255 : 0.0f,
+                                      passes ? 255.0f : kFail * 255);
         carried = wanted - code;
         t.alpha = code / 255;
     }
@@ -94,7 +104,10 @@ void round_alphas(AlbedoImage& image) {
 /// Gives the texels beside those that have a colour the mean of their neighbours'.
 void grow(AlbedoImage& image, std::vector<char>& known) {
     const std::vector<char> before = known;
-    const auto index = [&](int x, int y) { return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x); };
+    const auto index = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+               static_cast<std::size_t>(x);
+    };
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             if (before[index(x, y)])
@@ -103,11 +116,13 @@ void grow(AlbedoImage& image, std::vector<char>& known) {
             float count = 0;
             for (int dy = -1; dy <= 1; ++dy)
                 for (int dx = -1; dx <= 1; ++dx) {
-                    const int nx = (x + dx + image.width) % image.width, wrapped = (y + dy + image.height) % image.height;
+                    const int nx = (x + dx + image.width) % image.width,
+                              wrapped = (y + dy + image.height) % image.height;
                     if ((y + dy != wrapped && !image.repeats_v) || !before[index(nx, wrapped)])
                         continue;
                     const AlbedoTexel& t = image.at(nx, wrapped);
-                    sum = {sum.albedo + t.albedo, 0, sum.tangent + t.tangent, sum.height + t.height};
+                    sum = {sum.albedo + t.albedo, 0, sum.tangent + t.tangent,
+                           sum.height + t.height};
                     ++count;
                 }
             if (count == 0)
@@ -118,7 +133,8 @@ void grow(AlbedoImage& image, std::vector<char>& known) {
         }
 }
 
-/// What texels without a blade show: their neighbours, else the next coarser mip (already filled), else `empty`.
+/// What texels without a blade show: their neighbours, else the next coarser mip (already filled),
+/// else `empty`.
 void fill(AlbedoImage& image, const AlbedoImage* coarser, const AlbedoTexel& empty) {
     std::vector<char> known(image.texels.size());
     for (std::size_t i = 0; i < known.size(); ++i) {
@@ -134,7 +150,9 @@ void fill(AlbedoImage& image, const AlbedoImage* coarser, const AlbedoTexel& emp
             AlbedoTexel& t = image.at(x, y);
             if (known[static_cast<std::size_t>(&t - image.texels.data())])
                 continue;
-            t = coarser ? coarser->at(std::min(x / 2, coarser->width - 1), std::min(y / 2, coarser->height - 1)) : empty;
+            t = coarser ? coarser->at(std::min(x / 2, coarser->width - 1),
+                                      std::min(y / 2, coarser->height - 1))
+                        : empty;
             t.alpha = 0;
         }
 }
@@ -143,11 +161,13 @@ void fill(AlbedoImage& image, const AlbedoImage* coarser, const AlbedoTexel& emp
 
 AlbedoImage albedo_image(const TexelDecoder& decoder, const ImageSource& source, int rows) {
     AlbedoImage image{source.array->width, source.array->height + rows, !source.slice, {}};
-    image.texels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    image.texels.resize(static_cast<std::size_t>(image.width) *
+                        static_cast<std::size_t>(image.height));
     for (int y = rows; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const TexelValues v = decoder.texel(source, x, y - rows);
-            image.at(x, y) = {v.albedo, static_cast<float>(v.coverage), v.tangent, static_cast<float>(v.height)};
+            image.at(x, y) = {v.albedo, static_cast<float>(v.coverage), v.tangent,
+                              static_cast<float>(v.height)};
         }
     return image;
 }

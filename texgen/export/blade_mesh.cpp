@@ -21,7 +21,8 @@ struct Station {
     bool joins = true; ///< triangles join it to the one before
 };
 
-/// From root to tip; the tip is a point. Where a head begins there are two at one place, the stalk's colour and the head's.
+/// From root to tip; the tip is a point. Where a head begins there are two at one place, the
+/// stalk's colour and the head's.
 std::vector<Station> stations_of(const shared::GrassAppearance& look, int segments) {
     std::vector<Station> all;
     for (int i = 0; i < segments; ++i) {
@@ -40,9 +41,11 @@ float area_kept(const shared::GrassAppearance& look, std::span<const Station> st
     constexpr int kSteps = 512;
     double whole = 0, strip = 0;
     for (int i = 0; i < kSteps; ++i)
-        whole += shared::blade_width_at((static_cast<float>(i) + 0.5f) / kSteps, look.outline) / kSteps;
+        whole +=
+            shared::blade_width_at((static_cast<float>(i) + 0.5f) / kSteps, look.outline) / kSteps;
     for (std::size_t i = 1; i < stations.size(); ++i)
-        strip += 0.5 * (stations[i].width + stations[i - 1].width) * (stations[i].v - stations[i - 1].v);
+        strip +=
+            0.5 * (stations[i].width + stations[i - 1].width) * (stations[i].v - stations[i - 1].v);
     return static_cast<float>(whole / strip);
 }
 
@@ -55,10 +58,17 @@ void put(std::vector<float>& out, vec2 v) {
 
 class BladeWriter {
 public:
-    BladeWriter(BladeMesh& mesh, const BladeRecord& blade, const shared::GrassAppearance& look, float widen)
-        : mesh_(mesh), blade_(blade), look_(look), half_(blade.v1.w * widen), across_(shared::blade_width_direction(blade.shape.x)) {
-        // Its front is the side that faces the sky half-way up: engines that draw one side draw that.
-        front_ = shared::cross(across_, shared::blade_tangent(vec3(blade.v1), vec3(blade.v2), 0.5f)).y < 0 ? -1.0f : 1.0f;
+    BladeWriter(BladeMesh& mesh, const BladeRecord& blade, const shared::GrassAppearance& look,
+                float widen)
+        : mesh_(mesh), blade_(blade), look_(look), half_(blade.v1.w * widen),
+          across_(shared::blade_width_direction(blade.shape.x)) {
+        // Its front is the side that faces the sky half-way up: engines that draw one side draw
+        // that.
+        front_ =
+            shared::cross(across_, shared::blade_tangent(vec3(blade.v1), vec3(blade.v2), 0.5f)).y <
+                    0
+                ? -1.0f
+                : 1.0f;
     }
 
     void write(std::span<const Station> stations) {
@@ -83,7 +93,8 @@ public:
 private:
     void vertex(const Station& station, float u) {
         const vec3 v1(blade_.v1), v2(blade_.v2), root(blade_.root.x, 0, blade_.root.y);
-        const vec3 place = root + shared::blade_curve(v1, v2, station.v) + across_ * (half_ * station.width * (2 * u - 1));
+        const vec3 place = root + shared::blade_curve(v1, v2, station.v) +
+                           across_ * (half_ * station.width * (2 * u - 1));
         vec3 normal = shared::cross(across_, shared::blade_tangent(v1, v2, station.v)) * front_;
         normal = shared::length(normal) > 1e-4f ? shared::normalize(normal) : vec3(0, 1, 0);
         const float weight = station.v * station.v;
@@ -94,9 +105,11 @@ private:
         put(mesh_.winds, vec3(weight, blade_.root.w, blade_.v2.w));
         put(mesh_.roots, root);
         put(mesh_.blades, vec3(blade_.root.z, blade_.root.w, blade_.shape.y));
-        const vec3 albedo = shared::blade_albedo(look_, vec2(blade_.root.z, blade_.root.w), station.colour, 1);
+        const vec3 albedo =
+            shared::blade_albedo(look_, vec2(blade_.root.z, blade_.root.w), station.colour, 1);
         for (int c = 0; c < 3; ++c)
-            mesh_.colours.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(albedo[c], 0.0f, 1.0f) * 65535)));
+            mesh_.colours.push_back(
+                static_cast<std::uint16_t>(std::lround(std::clamp(albedo[c], 0.0f, 1.0f) * 65535)));
         mesh_.colours.push_back(65535);
     }
 
@@ -116,8 +129,10 @@ private:
 
 } // namespace
 
-BladeMesh blade_mesh(std::span<const BladeRecord> blades, int species, const shared::GrassAppearance& look, const MeshLod& lod) {
-    const auto stations = stations_of(look, look.outline.head_from < 1 ? lod.head_segments : lod.segments);
+BladeMesh blade_mesh(std::span<const BladeRecord> blades, int species,
+                     const shared::GrassAppearance& look, const MeshLod& lod) {
+    const auto stations =
+        stations_of(look, look.outline.head_from < 1 ? lod.head_segments : lod.segments);
     const auto area = [](const BladeRecord& b) { return static_cast<double>(b.v1.w) * b.shape.y; };
     std::vector<const BladeRecord*> kept;
     double all = 0, standing = 0;

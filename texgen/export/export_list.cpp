@@ -53,11 +53,14 @@ void require_export_output(const fs::path& directory) {
     if (!fs::exists(directory, error))
         return;
     if (const std::string name = foreign_to_export(directory); !name.empty())
-        throw base::input_error(base::ExitCode::kIo, directory, 0, "output", "a file that is no export's: " + base::printable(name),
-                                "an earlier export as it was written, an empty directory, or none yet");
+        throw base::input_error(
+            base::ExitCode::kIo, directory, 0, "output",
+            "a file that is no export's: " + base::printable(name),
+            "an earlier export as it was written, an empty directory, or none yet");
 }
 
-std::vector<FileEntry> write_export_list(const grass::GrassSet& set, const char* target, const fs::path& folder, int threads) {
+std::vector<FileEntry> write_export_list(const grass::GrassSet& set, const char* target,
+                                         const fs::path& folder, int threads) {
     std::vector<FileEntry> files;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         files.push_back({entry.path().filename().string(), 0, {}});
@@ -67,12 +70,21 @@ std::vector<FileEntry> write_export_list(const grass::GrassSet& set, const char*
         files[i].bytes = bytes.size();
         files[i].sha256 = base::sha256_hex(bytes);
     });
-    ordered_json root = {{"format", "Sward export"}, {"version", 1}, {"for", target}, {"preset", set.name}, {"seed", set.seed},
-                         {"side_m", set.side_m}, {"canopy_m", set.canopy_m}, {"variants", set.variants}, {"blades", set.blades.size()}};
+    ordered_json root = {{"format", "Sward export"},
+                         {"version", 1},
+                         {"for", target},
+                         {"preset", set.name},
+                         {"seed", set.seed},
+                         {"side_m", set.side_m},
+                         {"canopy_m", set.canopy_m},
+                         {"variants", set.variants},
+                         {"blades", set.blades.size()}};
     root["files"] = ordered_json::object();
     for (const FileEntry& file : files)
         root["files"][file.name] = {{"bytes", file.bytes}, {"sha256", file.sha256}};
-    base::write_file_atomic(folder / kExportJson, root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    base::write_file_atomic(folder / kExportJson,
+                            root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                "\n");
     return files;
 }
 

@@ -11,8 +11,10 @@ namespace sward::texgen {
 
 inline constexpr const char* kMeshFile = "blades_mesh.glb";
 
-/// One mesh a variant, species and level of detail; level k of all variants is scene k, and the nodes of level 0 name theirs by
-/// MSFT_lod. With `levels` 1 there is no extension. Throws base::Error(kOverLimit) above 1 GiB.
-[[nodiscard]] std::vector<std::byte> encode_blade_meshes(const grass::GrassSet& set, int levels, int threads);
+/// One mesh a variant, species and level of detail; level k of all variants is scene k, and the
+/// nodes of level 0 name theirs by MSFT_lod. With `levels` 1 there is no extension. Throws
+/// base::Error(kOverLimit) above 1 GiB.
+[[nodiscard]] std::vector<std::byte> encode_blade_meshes(const grass::GrassSet& set, int levels,
+                                                         int threads);
 
 } // namespace sward::texgen

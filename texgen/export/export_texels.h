@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The images of level 0 of a set's layers and slices, decoded: what every export of textures starts from.
+// The images of level 0 of a set's layers and slices, decoded: what every export of textures starts
+// from.
 #pragma once
 
 #include <cstdint>

@@ -33,7 +33,9 @@ struct Group {
     int width = 0, height = 0, mips = 0;
     AtlasPlan atlas; ///< of one variant
 
-    [[nodiscard]] int per_variant(const grass::GrassSet& set) const { return static_cast<int>(images.size()) / set.variants; }
+    [[nodiscard]] int per_variant(const grass::GrassSet& set) const {
+        return static_cast<int>(images.size()) / set.variants;
+    }
 };
 
 std::vector<Group> groups_of(const grass::GrassSet& set) {
@@ -62,8 +64,10 @@ std::string atlas_file(const char* kind, const Group& group, int variant, const 
 void check_atlas(const Group& group, const fs::path& set) {
     const int side = std::max(group.atlas.width(), group.atlas.height());
     if (side > static_cast<int>(grass::kMaxPlainSide))
-        throw base::input_error(base::ExitCode::kOverLimit, set, 0, "atlas of " + group.name, fmt::format("{} texels a side", side),
-                                fmt::format("at most {}: --no-atlas leaves them out", grass::kMaxPlainSide));
+        throw base::input_error(
+            base::ExitCode::kOverLimit, set, 0, "atlas of " + group.name,
+            fmt::format("{} texels a side", side),
+            fmt::format("at most {}: --no-atlas leaves them out", grass::kMaxPlainSide));
 }
 
 /// What an image without a blade shows: the mean of all others.
@@ -91,11 +95,14 @@ struct Part {
 };
 
 void write_parts(const std::vector<Part>& parts, const fs::path& folder, int threads) {
-    parallel_for(parts.size(), resolve_threads(threads), [&](std::size_t i, int) { parts[i].write(folder / parts[i].name); });
+    parallel_for(parts.size(), resolve_threads(threads),
+                 [&](std::size_t i, int) { parts[i].write(folder / parts[i].name); });
 }
 
 Part ktx2_part(std::string name, const grass::TextureArray& array, int compression) {
-    return {std::move(name), [&array, compression](const fs::path& path) { base::write_file_atomic(path, grass::encode_ktx2(array, compression)); }};
+    return {std::move(name), [&array, compression](const fs::path& path) {
+                base::write_file_atomic(path, grass::encode_ktx2(array, compression));
+            }};
 }
 
 Part png_part(std::string name, const grass::TextureArray& array, bool colour) {
@@ -105,40 +112,53 @@ Part png_part(std::string name, const grass::TextureArray& array, bool colour) {
 }
 
 /// The atlas of one variant, and its images into the arrays.
-void write_variant(const grass::GrassSet& set, const Group& group, int variant, AlbedoArrays& arrays, const fs::path& folder,
-                   const TextureExport& options) {
+void write_variant(const grass::GrassSet& set, const Group& group, int variant,
+                   AlbedoArrays& arrays, const fs::path& folder, const TextureExport& options) {
     const TexelDecoder decoder(set);
     const AlbedoTexel empty = mean_texel(group, decoder);
     const AtlasPlan& plan = group.atlas;
-    AlbedoArrays atlas = empty_arrays(plan.width(), plan.height(), 1, options.atlases ? plan.mips : 0);
+    AlbedoArrays atlas =
+        empty_arrays(plan.width(), plan.height(), 1, options.atlases ? plan.mips : 0);
     atlas.albedo.plain = atlas.tangent.plain = true;
     const int count = group.per_variant(set), rows = plan.tile_height - group.height;
-    parallel_for(static_cast<std::size_t>(count), resolve_threads(options.threads), [&](std::size_t task, int) {
-        const int i = static_cast<int>(task), layer = variant * count + i;
-        const ImageSource& source = group.images[static_cast<std::size_t>(layer)];
-        const std::vector<AlbedoImage> mips = albedo_mips(albedo_image(decoder, source), group.mips, empty);
-        store_layer(mips, layer, arrays);
-        if (options.atlases)
-            store_tile(rows == 0 ? mips : albedo_mips(albedo_image(decoder, source, rows), plan.mips, empty), plan, i, atlas);
-    });
+    parallel_for(static_cast<std::size_t>(count), resolve_threads(options.threads),
+                 [&](std::size_t task, int) {
+                     const int i = static_cast<int>(task), layer = variant * count + i;
+                     const ImageSource& source = group.images[static_cast<std::size_t>(layer)];
+                     const std::vector<AlbedoImage> mips =
+                         albedo_mips(albedo_image(decoder, source), group.mips, empty);
+                     store_layer(mips, layer, arrays);
+                     if (options.atlases)
+                         store_tile(rows == 0 ? mips
+                                              : albedo_mips(albedo_image(decoder, source, rows),
+                                                            plan.mips, empty),
+                                    plan, i, atlas);
+                 });
     if (!options.atlases)
         return;
-    write_parts({png_part(atlas_file("albedo", group, variant, "png"), atlas.albedo, true),
-                 png_part(atlas_file("tangent", group, variant, "png"), atlas.tangent, false),
-                 ktx2_part(atlas_file("albedo", group, variant, "ktx2"), atlas.albedo, options.compression),
-                 ktx2_part(atlas_file("tangent", group, variant, "ktx2"), atlas.tangent, options.compression)},
-                folder, options.threads);
+    write_parts(
+        {png_part(atlas_file("albedo", group, variant, "png"), atlas.albedo, true),
+         png_part(atlas_file("tangent", group, variant, "png"), atlas.tangent, false),
+         ktx2_part(atlas_file("albedo", group, variant, "ktx2"), atlas.albedo, options.compression),
+         ktx2_part(atlas_file("tangent", group, variant, "ktx2"), atlas.tangent,
+                   options.compression)},
+        folder, options.threads);
 }
 
 bool is_far_file(const std::string& name) {
     constexpr const char* kPlanes[] = {"layers", "slices"};
     return name == grass::kFarLightPicture ||
-           (name.ends_with(".ktx2") && std::ranges::none_of(kPlanes, [&](const char* stem) { return name.starts_with(stem); }));
+           (name.ends_with(".ktx2") && std::ranges::none_of(kPlanes, [&](const char* stem) {
+                return name.starts_with(stem);
+            }));
 }
 
 ordered_json image_json(const grass::GrassSet& set, const Group& group, int index, bool atlases) {
     const ImageSource& source = group.images[static_cast<std::size_t>(index)];
-    ordered_json out = {{"name", source.name}, {"array", group.name}, {"index", index}, {"variant", source.variant}};
+    ordered_json out = {{"name", source.name},
+                        {"array", group.name},
+                        {"index", index},
+                        {"variant", source.variant}};
     if (source.slice)
         out["axis"] = source.axis == shared::kAxisX ? "x" : "z";
     out[source.slice ? "middle_m" : "height_m"] = source.place_m;
@@ -155,10 +175,17 @@ ordered_json rgb(const glm::vec3& c) {
 }
 
 ordered_json group_json(const grass::GrassSet& set, const Group& group, bool atlases) {
-    ordered_json out = {{"width", group.width}, {"height", group.height}, {"mips", group.mips}, {"images", group.images.size()},
-                        {"albedo", array_file("albedo", group)}, {"tangent", array_file("tangent", group)}};
+    ordered_json out = {{"width", group.width},
+                        {"height", group.height},
+                        {"mips", group.mips},
+                        {"images", group.images.size()},
+                        {"albedo", array_file("albedo", group)},
+                        {"tangent", array_file("tangent", group)}};
     for (int v = 0; atlases && v < set.variants; ++v) {
-        ordered_json files = {{"variant", v}, {"width", group.atlas.width()}, {"height", group.atlas.height()}, {"mips", group.atlas.mips},
+        ordered_json files = {{"variant", v},
+                              {"width", group.atlas.width()},
+                              {"height", group.atlas.height()},
+                              {"mips", group.atlas.mips},
                               {"rim_texels", group.atlas.rim}};
         for (const char* kind : {"albedo", "tangent"})
             files[kind] = {atlas_file(kind, group, v, "ktx2"), atlas_file(kind, group, v, "png")};
@@ -167,16 +194,22 @@ ordered_json group_json(const grass::GrassSet& set, const Group& group, bool atl
     return out;
 }
 
-std::string textures_json(const grass::GrassSet& set, const std::vector<Group>& groups, ordered_json far_field, bool atlases) {
-    ordered_json root = {{"format", "Sward textures"},
-                         {"version", 1},
-                         {"preset", set.name},
-                         {"side_m", set.side_m},
-                         {"canopy_m", set.canopy_m},
-                         {"variants", set.variants},
-                         {"floor", {{"cover", set.floor.cover}, {"moss", rgb(set.floor.moss)}, {"litter", rgb(set.floor.litter)}}},
-                         {"albedo", "RGB sRGB, colour of the nearest blades under alpha 0; A linear, straight"},
-                         {"tangent", "RGB x, y, z * 0.5 + 0.5 along the blade, y up; A height, 0 ground .. 1 canopy_m"}};
+std::string textures_json(const grass::GrassSet& set, const std::vector<Group>& groups,
+                          ordered_json far_field, bool atlases) {
+    ordered_json root = {
+        {"format", "Sward textures"},
+        {"version", 1},
+        {"preset", set.name},
+        {"side_m", set.side_m},
+        {"canopy_m", set.canopy_m},
+        {"variants", set.variants},
+        {"floor",
+         {{"cover", set.floor.cover},
+          {"moss", rgb(set.floor.moss)},
+          {"litter", rgb(set.floor.litter)}}},
+        {"albedo", "RGB sRGB, colour of the nearest blades under alpha 0; A linear, straight"},
+        {"tangent",
+         "RGB x, y, z * 0.5 + 0.5 along the blade, y up; A height, 0 ground .. 1 canopy_m"}};
     for (const Group& group : groups)
         root["arrays"][group.name] = group_json(set, group, atlases);
     root["far_field"] = std::move(far_field);
@@ -196,7 +229,8 @@ ordered_json copy_far_field(const fs::path& set, const fs::path& folder) {
         }
     std::ranges::sort(names);
     ordered_json out = {{"files", names}};
-    const ordered_json root = ordered_json::parse(base::read_text(set / grass::kSetJson, grass::kMaxSetJsonBytes), nullptr, false);
+    const ordered_json root = ordered_json::parse(
+        base::read_text(set / grass::kSetJson, grass::kMaxSetJsonBytes), nullptr, false);
     for (const char* key : {"march", "far", "far_light"})
         if (root.is_object() && root.contains(key))
             out[key] = root[key];
@@ -205,7 +239,8 @@ ordered_json copy_far_field(const fs::path& set, const fs::path& folder) {
 
 } // namespace
 
-void write_textures(const grass::GrassSet& set, const fs::path& set_directory, const fs::path& folder, const TextureExport& options) {
+void write_textures(const grass::GrassSet& set, const fs::path& set_directory,
+                    const fs::path& folder, const TextureExport& options) {
     const StepTimer timer("textures");
     const std::vector<Group> groups = groups_of(set);
     for (const Group& group : groups)
@@ -213,7 +248,8 @@ void write_textures(const grass::GrassSet& set, const fs::path& set_directory, c
             check_atlas(group, set_directory);
     base::Progress progress("textures", groups.size() * static_cast<std::size_t>(set.variants));
     for (const Group& group : groups) {
-        AlbedoArrays arrays = empty_arrays(group.width, group.height, static_cast<int>(group.images.size()), group.mips);
+        AlbedoArrays arrays = empty_arrays(group.width, group.height,
+                                           static_cast<int>(group.images.size()), group.mips);
         for (int v = 0; v < set.variants; ++v) {
             write_variant(set, group, v, arrays, folder, options);
             progress.advance();
@@ -222,7 +258,9 @@ void write_textures(const grass::GrassSet& set, const fs::path& set_directory, c
                      ktx2_part(array_file("tangent", group), arrays.tangent, options.compression)},
                     folder, options.threads);
     }
-    base::write_file_atomic(folder / kStackJson, textures_json(set, groups, copy_far_field(set_directory, folder), options.atlases));
+    base::write_file_atomic(
+        folder / kStackJson,
+        textures_json(set, groups, copy_far_field(set_directory, folder), options.atlases));
 }
 
 } // namespace sward::texgen

@@ -15,7 +15,8 @@ class GlbWriter {
 public:
     GlbWriter();
 
-    /// Index of a new accessor. Floats of 2 or 3 components, with their bounds where `bounds` (POSITION needs them).
+    /// Index of a new accessor. Floats of 2 or 3 components, with their bounds where `bounds`
+    /// (POSITION needs them).
     int add_floats(std::span<const float> values, int components, bool bounds = false);
     /// Four 16-bit numbers a vertex that stand for 0..1.
     int add_unorm16(std::span<const std::uint16_t> values);

@@ -16,8 +16,9 @@ namespace sward::texgen {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
-// Intensities of the shipped meadow in a calm, and in wind of some 7, 13 and 35 m/s. 45 degrees of lean azimuth and 22.5 of the sun's: finer changed a meadow's radiance by less
-// than the rays' own error. Low suns are close, for there sunlight fades.
+// Intensities of the shipped meadow in a calm, and in wind of some 7, 13 and 35 m/s. 45 degrees of
+// lean azimuth and 22.5 of the sun's: finer changed a meadow's radiance by less than the rays' own
+// error. Low suns are close, for there sunlight fades.
 const std::vector<float> kLeans = {0.0f, 0.3f, 0.6f, 0.9f};
 const std::vector<float> kLeanAzimuths = {0, 45, 90, 135, 180};
 const std::vector<float> kSunElevations = {-5, -1, 3, 7, 12, 20, 30, 45, 60, 90};
@@ -53,7 +54,8 @@ shared::Light even_sky() {
     return light;
 }
 
-/// The tangent in the view's frame, mirrored if asked: shading knows angles between tangent, sun and eye alone.
+/// The tangent in the view's frame, mirrored if asked: shading knows angles between tangent, sun
+/// and eye alone.
 glm::vec3 seen_from(const glm::vec3& tangent, const glm::dvec3& to_eye, bool mirrored) {
     const glm::dvec2 flat(to_eye.x, to_eye.z);
     const double length = glm::length(flat);
@@ -62,7 +64,8 @@ glm::vec3 seen_from(const glm::vec3& tangent, const glm::dvec3& to_eye, bool mir
     return {tangent.x * h.x + tangent.z * h.y, tangent.y, mirrored ? -across : across};
 }
 
-/// Where a bend of this intensity along +x turns an upright blade, at the height where sway_at takes it.
+/// Where a bend of this intensity along +x turns an upright blade, at the height where sway_at
+/// takes it.
 glm::vec3 lean_turn(double lean) {
     const double angle = 0.5 * std::numbers::pi * lean * shared::kSwayHeight;
     return {std::sin(angle), std::cos(angle), 0};
@@ -71,12 +74,14 @@ glm::vec3 lean_turn(double lean) {
 /// The suns as they reach the bent canopy (canopy_sway), for both mirror images.
 class SwayedLights {
 public:
-    SwayedLights(const std::vector<shared::GrassAppearance>& looks, const std::vector<shared::Light>& lights,
-                 const ViewRays& view, const glm::vec3& to_eye)
+    SwayedLights(const std::vector<shared::GrassAppearance>& looks,
+                 const std::vector<shared::Light>& lights, const ViewRays& view,
+                 const glm::vec3& to_eye)
         : count_(lights.size()) {
         for (const bool mirrored : {false, true}) {
             const double azimuth = view.lean_azimuth_deg.value_or(0);
-            const glm::vec3 turn = seen_from(lean_turn(view.lean), direction(0, mirrored ? azimuth : -azimuth), mirrored);
+            const glm::vec3 turn = seen_from(lean_turn(view.lean),
+                                             direction(0, mirrored ? azimuth : -azimuth), mirrored);
             for (const shared::Light& light : lights)
                 lights_.push_back(shared::light_in_sway(
                     light, shared::canopy_sway(looks.front(), turn, light.to_sun, to_eye)));
@@ -94,7 +99,8 @@ private:
 SampleRay ray_of(const Canopy& canopy, const ViewRays& view, int number, bool mirrored) {
     SampleRay ray = sample_ray(number, view.elevation_deg, canopy.side_m, canopy.top_m);
     if (view.lean_azimuth_deg) // the canopy leans along +x, that far from the eye
-        ray.direction = -direction(view.elevation_deg, mirrored ? *view.lean_azimuth_deg : -*view.lean_azimuth_deg);
+        ray.direction = -direction(view.elevation_deg,
+                                   mirrored ? *view.lean_azimuth_deg : -*view.lean_azimuth_deg);
     return ray;
 }
 
@@ -107,14 +113,16 @@ struct BentBlades {
     std::optional<BladeField> field;
 
     BentBlades(const Patch& whole, int variant, double canopy, double lean)
-        : rest(whole.variant(variant)), bent(rest.begin(), rest.end()), patch(whole), canopy_m(canopy) {
+        : rest(whole.variant(variant)), bent(rest.begin(), rest.end()), patch(whole),
+          canopy_m(canopy) {
         // The wind of 1 m/s along x whose bend_intensity is `lean`.
         const auto response = static_cast<float>(std::sqrt(std::pow(1 - lean, -1.5) - 1));
         for (shared::BladeRecord& blade : bent) {
             if (lean <= 0)
                 break;
             glm::vec3 v1(blade.v1), v2(blade.v2);
-            shared::pose_blade(v1, v2, {blade.shape.y, static_cast<float>(canopy), response, 1}, {1, 0});
+            shared::pose_blade(v1, v2, {blade.shape.y, static_cast<float>(canopy), response, 1},
+                               {1, 0});
             blade.v1 = {v1, blade.v1.w};
             blade.v2 = {v2, blade.v2.w};
         }
@@ -142,8 +150,9 @@ Canopy blade_canopy(const Patch& patch, double canopy_m) {
     return {patch.side_m, canopy_m, patch.looks, [&patch, canopy_m](double lean) {
                 std::vector<Caster> casters;
                 for (int v = 0; v < patch.variants(); ++v)
-                    casters.emplace_back([blades = std::make_shared<BentBlades>(patch, v, canopy_m, lean)](
-                                             const SampleRay& ray, std::uint64_t) { return blades->cast(ray); });
+                    casters.emplace_back(
+                        [blades = std::make_shared<BentBlades>(patch, v, canopy_m, lean)](
+                            const SampleRay& ray, std::uint64_t) { return blades->cast(ray); });
                 return casters;
             }};
 }
@@ -169,7 +178,8 @@ ViewSums cast_view(const Canopy& canopy, const std::vector<Caster>& casters, con
     sums.sun.resize(lights.size(), glm::dvec3(0));
     for (int i = view.first; i < view.end; ++i) {
         const bool mirrored = i % 2 == 1;
-        const Caster& caster = casters[static_cast<std::size_t>(i) * casters.size() / static_cast<std::size_t>(view.count)];
+        const Caster& caster = casters[static_cast<std::size_t>(i) * casters.size() /
+                                       static_cast<std::size_t>(view.count)];
         const SampleRay ray = ray_of(canopy, view, i, mirrored);
         ++sums.rays;
         const std::optional<GrassHit> hit = caster(ray, static_cast<std::uint64_t>(i));
@@ -202,29 +212,36 @@ void store_view(const ViewSums& sums, bool even, std::size_t image, grass::FarLi
     const double hits = std::max(sums.hits, 1), shaded = std::max(sums.shaded, 1);
     for (std::size_t s = 0; s < kSunElevations.size(); ++s)
         for (std::size_t a = 0; a < kSunAzimuths; ++a) {
-            const auto sun = [&](std::size_t azimuth) { return sums.sun[s * kSunAzimuths + azimuth] / shaded; };
+            const auto sun = [&](std::size_t azimuth) {
+                return sums.sun[s * kSunAzimuths + azimuth] / shaded;
+            };
             grass::FarSample& out = light.samples[light.at(image, s, a)];
             out.sun = even ? 0.5 * (sun(a) + sun((kSunAzimuths - a) % kSunAzimuths)) : sun(a);
             out.sky = sums.sky / shaded;
-            out.coverage = static_cast<float>(sums.hits) / static_cast<float>(std::max(sums.rays, 1));
+            out.coverage =
+                static_cast<float>(sums.hits) / static_cast<float>(std::max(sums.rays, 1));
             out.height = static_cast<float>(sums.height / hits);
         }
 }
 
 scene::Image far_light_picture(const grass::FarLight& light) {
-    const std::size_t columns = light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
-    scene::Image picture{static_cast<int>(columns),
-                         static_cast<int>(light.images()),
-                         {"sun.R", "sun.G", "sun.B", "sky.R", "sky.G", "sky.B", "coverage", "height"},
-                         {},
-                         {}};
+    const std::size_t columns =
+        light.sun_elevations_deg.size() * static_cast<std::size_t>(light.sun_azimuths);
+    scene::Image picture{
+        static_cast<int>(columns),
+        static_cast<int>(light.images()),
+        {"sun.R", "sun.G", "sun.B", "sky.R", "sky.G", "sky.B", "coverage", "height"},
+        {},
+        {}};
     for (const grass::FarSample& s : light.samples)
-        picture.texels.insert(picture.texels.end(),
-                              {s.sun.x, s.sun.y, s.sun.z, s.sky.x, s.sky.y, s.sky.z, s.coverage, s.height});
+        picture.texels.insert(picture.texels.end(), {s.sun.x, s.sun.y, s.sun.z, s.sky.x, s.sky.y,
+                                                     s.sky.z, s.coverage, s.height});
     std::vector<float> azimuths;
     for (int a = 0; a < light.sun_azimuths; ++a)
         azimuths.push_back(360.0f * static_cast<float>(a) / static_cast<float>(light.sun_azimuths));
-    const auto list = [](const std::vector<float>& values) { return fmt::format("{}", fmt::join(values, " ")); };
+    const auto list = [](const std::vector<float>& values) {
+        return fmt::format("{}", fmt::join(values, " "));
+    };
     picture.metadata = {{"sward:leans", list(light.leans)},
                         {"sward:lean_azimuths_deg", list(light.lean_azimuths_deg)},
                         {"sward:elevations_deg", list(light.elevations_deg)},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rays through a canopy and the light of what they meet: the far table's raw numbers, from blades or from anything else
-// that rays can be cast through.
+// Rays through a canopy and the light of what they meet: the far table's raw numbers, from blades
+// or from anything else that rays can be cast through.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ struct GrassHit {
     std::size_t species = 0;       ///< index of Canopy::looks
 };
 
-/// First hit of a ray that comes down from the canopy's top; `number` names the ray, for casters that need a random number.
+/// First hit of a ray that comes down from the canopy's top; `number` names the ray, for casters
+/// that need a random number.
 using Caster = std::function<std::optional<GrassHit>(const SampleRay& ray, std::uint64_t number)>;
 
 /// A canopy that tiles the plane.
@@ -32,47 +33,51 @@ struct Canopy {
     double side_m = 0;
     double top_m = 0;
     std::vector<shared::GrassAppearance> looks;
-    /// One caster a variant, of the canopy bent along +x by bend_offset of this intensity (0: at rest). Asked once an intensity; what
-    /// it holds is freed before the next.
+    /// One caster a variant, of the canopy bent along +x by bend_offset of this intensity (0: at
+    /// rest). Asked once an intensity; what it holds is freed before the next.
     std::function<std::vector<Caster>(double lean)> bent;
 };
 
-/// Blades bent as their shell images are (pose_blade), shaded in the mean of all blades' colours, as pixels that hold many of them
-/// show them. `patch` must outlive it.
+/// Blades bent as their shell images are (pose_blade), shaded in the mean of all blades' colours,
+/// as pixels that hold many of them show them. `patch` must outlive it.
 [[nodiscard]] Canopy blade_canopy(const Patch& patch, double canopy_m);
 
 /// Sums of rays from one view elevation and lean azimuth.
 struct ViewSums {
     int rays = 0;
     int hits = 0;
-    int shaded = 0;             ///< hits among them whose light was summed
-    double height = 0;          ///< of the hits
+    int shaded = 0;    ///< hits among them whose light was summed
+    double height = 0; ///< of the hits
     double along = 0;
-    glm::dvec3 sky{0};          ///< of the shaded hits
+    glm::dvec3 sky{0};           ///< of the shaded hits
     std::vector<glm::dvec3> sun; ///< likewise; sun elevation-major
     void add(const ViewSums& other);
 };
 
-/// Which rays: numbers [first, end), at a view elevation. Without a lean azimuth the views spread over all azimuths.
+/// Which rays: numbers [first, end), at a view elevation. Without a lean azimuth the views spread
+/// over all azimuths.
 struct ViewRays {
     double elevation_deg = 90;
     std::optional<double> lean_azimuth_deg; ///< every other ray sees the mirrored canopy
     int first = 0;
     int end = 0;
-    int count = 0;     ///< of all batches of this view: variants in blocks of consecutive rays
+    int count = 0;       ///< of all batches of this view: variants in blocks of consecutive rays
     int shade_every = 1; ///< light costs more than rays
     double lean = 0;     ///< bend intensity: what it does to the canopy's light (canopy_sway)
 };
-[[nodiscard]] ViewSums cast_view(const Canopy& canopy, const std::vector<Caster>& casters, const ViewRays& rays);
+[[nodiscard]] ViewSums cast_view(const Canopy& canopy, const std::vector<Caster>& casters,
+                                 const ViewRays& rays);
 
-/// The axes of every table that texgen makes, and no samples. `elevations_deg`: of the view, falling.
+/// The axes of every table that texgen makes, and no samples. `elevations_deg`: of the view,
+/// falling.
 [[nodiscard]] grass::FarLight light_axes(const std::vector<float>& elevations_deg);
 
-/// Writes a view's mean into its image. `even`: the mirrored view is the same, so that both halves of the sun's azimuths are one.
+/// Writes a view's mean into its image. `even`: the mirrored view is the same, so that both halves
+/// of the sun's azimuths are one.
 void store_view(const ViewSums& sums, bool even, std::size_t image, grass::FarLight& light);
 
-/// far.exr: columns are sun azimuths within sun elevations, rows view elevations within lean azimuths within leans; float channels,
-/// axes in the metadata.
+/// far.exr: columns are sun azimuths within sun elevations, rows view elevations within lean
+/// azimuths within leans; float channels, axes in the metadata.
 [[nodiscard]] scene::Image far_light_picture(const grass::FarLight& light);
 
 } // namespace sward::texgen

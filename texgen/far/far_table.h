@@ -8,12 +8,15 @@
 
 namespace sward::texgen {
 
-/// What rays through a canopy meet at falling elevations, and its light. The rays spread evenly over places, azimuths and variants.
+/// What rays through a canopy meet at falling elevations, and its light. The rays spread evenly
+/// over places, azimuths and variants.
 struct FarTable {
-    std::vector<grass::FarRow> rows; ///< of the canopy at rest; the shells' shares are calibrate_shells' to fill
-    grass::FarLight light;           ///< at rest and leaning; at rest its coverage and heights are the rows'
+    std::vector<grass::FarRow>
+        rows; ///< of the canopy at rest; the shells' shares are calibrate_shells' to fill
+    grass::FarLight light; ///< at rest and leaning; at rest its coverage and heights are the rows'
 };
-/// `rays`: of a view at rest (kFarRays); a standard error of 0.5 / sqrt(rays) of its coverage at most. Time grows with them.
+/// `rays`: of a view at rest (kFarRays); a standard error of 0.5 / sqrt(rays) of its coverage at
+/// most. Time grows with them.
 [[nodiscard]] FarTable far_table(const Canopy& canopy, int rays, int threads);
 
 /// Rows of a far table before anything is known but their elevations and the slices' shares.

@@ -26,9 +26,10 @@ const std::uint8_t* texel_of(const grass::TextureArray& array, int image, int co
                 static_cast<std::size_t>(column));
 }
 
-/// Chance that a ray along `direction` sees the texel: its coverage, put right for being flattened onto
-/// the plane. `axis` is the slices', or -1 for a layer.
-double chance(const std::uint8_t* id, const std::uint8_t* shape, int axis, const glm::dvec3& direction) {
+/// Chance that a ray along `direction` sees the texel: its coverage, put right for being flattened
+/// onto the plane. `axis` is the slices', or -1 for a layer.
+double chance(const std::uint8_t* id, const std::uint8_t* shape, int axis,
+              const glm::dvec3& direction) {
     if (id[0] == 0)
         return 0;
     const glm::vec3 tangent = shared::decode_tangent(glm::vec2(shape[0], shape[1]) / 255.0f);
@@ -51,7 +52,8 @@ FlatField::Ray FlatField::ray_of(glm::dvec3 origin, glm::dvec3 direction,
 }
 
 double FlatField::top_of(std::uint8_t code) const {
-    return shared::decode_height(static_cast<float>(code) / 255.0f, set_.height_coding) * set_.canopy_m;
+    return shared::decode_height(static_cast<float>(code) / 255.0f, set_.height_coding) *
+           set_.canopy_m;
 }
 
 double FlatField::column_chance(std::uint8_t code, double y) const {
@@ -112,10 +114,10 @@ template<typename Visit> void FlatField::walk_shells(const Ray& ray, const Visit
             continue;
         const double lot = base::hash_unit(ray.number, 0, static_cast<std::uint64_t>(i));
         const double seed = (id[2] + 0.5) / 256;
-        // Below 1 the share picks blades by seed (a step above 1 - seed shows it); above, it scales their coverage.
+        // Below 1 the share picks blades by seed (a step above 1 - seed shows it); above, it scales
+        // their coverage.
         const double share = lot < odds ? 1 - seed + 0.5 / 256 : lot / odds;
-        if (share <= grass::kMaxShellShare &&
-            visit(FlatHit{t, y, along_at(id, y)}, share))
+        if (share <= grass::kMaxShellShare && visit(FlatHit{t, y, along_at(id, y)}, share))
             return;
     }
 }
@@ -147,9 +149,9 @@ void FlatField::slices(const Ray& ray, int axis, std::optional<FlatHit>& best) c
                                    far_.slices.height - 1);
         const int slice = ((m % far_.slice_count) + far_.slice_count) % far_.slice_count;
         const auto plane = [&](int which) {
-            return texel_of(far_.slices,
-                            shared::slice_index(variant_, axis, slice, far_.slice_count, which),
-                            wrapped(axis == shared::kAxisX ? p.z : p.x, texel, far_.slices.width), row);
+            return texel_of(
+                far_.slices, shared::slice_index(variant_, axis, slice, far_.slice_count, which),
+                wrapped(axis == shared::kAxisX ? p.z : p.x, texel, far_.slices.width), row);
         };
         const std::uint8_t* id = plane(shared::kPlaneId);
         const double seed = (id[2] + 0.5) / 256;

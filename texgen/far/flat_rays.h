@@ -20,7 +20,8 @@ struct FlatHit {
 
 /// What part of the far tier counts.
 struct FlatUse {
-    double shell_share = 1; ///< shells show a blade while 1 - seed < share; above 1 it scales their coverage
+    double shell_share =
+        1; ///< shells show a blade while 1 - seed < share; above 1 it scales their coverage
     double slice_share = 1; ///< scales the slices' |dx| and |dz|
 };
 
@@ -38,8 +39,8 @@ public:
     [[nodiscard]] std::optional<FlatHit> cast(glm::dvec3 origin, glm::dvec3 direction,
                                               std::uint64_t ray) const;
 
-    /// Least shell share at which the ray meets a texture, 0 if it meets a slice; infinite if it meets nothing at
-    /// any share.
+    /// Least shell share at which the ray meets a texture, 0 if it meets a slice; infinite if it
+    /// meets nothing at any share.
     [[nodiscard]] double share_needed(glm::dvec3 origin, glm::dvec3 direction,
                                       std::uint64_t ray) const;
 
@@ -50,10 +51,11 @@ private:
         std::uint64_t number;
     };
     [[nodiscard]] Ray ray_of(glm::dvec3 origin, glm::dvec3 direction, std::uint64_t number) const;
-    /// Calls visit(hit, share) for every texel of a shell that the ray meets at that shell share or more, from the
-    /// top down, until true.
+    /// Calls visit(hit, share) for every texel of a shell that the ray meets at that shell share or
+    /// more, from the top down, until true.
     template<typename Visit> void walk_shells(const Ray& ray, const Visit& visit) const;
-    /// Of a height map (B1): height of the blade in metres; 1 where a shell at height y shows it; place along it there.
+    /// Of a height map (B1): height of the blade in metres; 1 where a shell at height y shows it;
+    /// place along it there.
     [[nodiscard]] double top_of(std::uint8_t code) const;
     [[nodiscard]] double column_chance(std::uint8_t code, double y) const;
     [[nodiscard]] double along_at(const std::uint8_t* id, double y) const;
@@ -70,8 +72,8 @@ private:
 [[nodiscard]] grass::FarRow flat_coverage(const grass::GrassSet& set, int level,
                                           double elevation_deg, FlatUse use, int rays);
 
-/// share_needed of `rays` rays at the row's elevation and share of the slices, rising: the textures' coverage at a shell
-/// share is the part of the list that does not exceed it.
+/// share_needed of `rays` rays at the row's elevation and share of the slices, rising: the
+/// textures' coverage at a shell share is the part of the list that does not exceed it.
 [[nodiscard]] std::vector<float> shares_needed(const grass::GrassSet& set, int level,
                                                const grass::FarRow& row, int rays);
 

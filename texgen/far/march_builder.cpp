@@ -20,21 +20,27 @@ constexpr int kColumnSide = shared::kMarchTexels >> shared::kColumnBase;
 
 MarchImages images_of(int width, int height, int layers) {
     MarchImages images{width, height, layers, {}};
-    images.mips.emplace_back(static_cast<std::size_t>(width) * height * layers * MarchImages::kFloats, 0.0f);
+    images.mips.emplace_back(
+        static_cast<std::size_t>(width) * height * layers * MarchImages::kFloats, 0.0f);
     return images;
 }
 
 /// Halves width and height (down to 1), each texel the mean of its children.
 std::vector<float> halved(const std::vector<float>& from, int width, int height, int layers) {
-    const int w = std::max(1, width / 2), h = std::max(1, height / 2), sx = width > 1 ? 2 : 1, sy = height > 1 ? 2 : 1;
+    const int w = std::max(1, width / 2), h = std::max(1, height / 2), sx = width > 1 ? 2 : 1,
+              sy = height > 1 ? 2 : 1;
     std::vector<float> out(static_cast<std::size_t>(w) * h * layers * MarchImages::kFloats, 0.0f);
     for (int n = 0; n < layers; ++n)
         for (int y = 0; y < h; ++y)
             for (int x = 0; x < w; ++x)
                 for (int j = 0; j < sy; ++j)
                     for (int i = 0; i < sx; ++i) {
-                        const float* a = &from[((static_cast<std::size_t>(n) * height + y * sy + j) * width + x * sx + i) * MarchImages::kFloats];
-                        float* b = &out[((static_cast<std::size_t>(n) * h + y) * w + x) * MarchImages::kFloats];
+                        const float* a =
+                            &from[((static_cast<std::size_t>(n) * height + y * sy + j) * width +
+                                   x * sx + i) *
+                                  MarchImages::kFloats];
+                        float* b = &out[((static_cast<std::size_t>(n) * h + y) * w + x) *
+                                        MarchImages::kFloats];
                         for (std::size_t c = 0; c < MarchImages::kFloats; ++c)
                             b[c] += a[c] / static_cast<float>(sx * sy);
                     }
@@ -43,10 +49,12 @@ std::vector<float> halved(const std::vector<float>& from, int width, int height,
 
 void make_mips(MarchImages& images) {
     for (int m = 0; (images.width >> m) > 1 || (images.height >> m) > 1; ++m)
-        images.mips.push_back(halved(images.mips.back(), std::max(1, images.width >> m), std::max(1, images.height >> m), images.layers));
+        images.mips.push_back(halved(images.mips.back(), std::max(1, images.width >> m),
+                                     std::max(1, images.height >> m), images.layers));
 }
 
-/// Texels of a mip whose mean density is to be 1: `runs` of `length` texels each, `stride` apart from `first`.
+/// Texels of a mip whose mean density is to be 1: `runs` of `length` texels each, `stride` apart
+/// from `first`.
 struct Height {
     std::size_t first, runs, stride, length;
 };
@@ -65,7 +73,8 @@ void divide_by_mean(std::vector<float>& mip, const Height& height) {
         }
 }
 
-/// The next coarser set: two slabs become one, texels twice as wide. Not taller: a coarse pixel still tells the heads from the leaves.
+/// The next coarser set: two slabs become one, texels twice as wide. Not taller: a coarse pixel
+/// still tells the heads from the leaves.
 MarchImages coarser(const MarchImages& fine) {
     MarchImages out = images_of(fine.width / 2, fine.height, fine.layers / 2);
     constexpr std::size_t kFloats = MarchImages::kFloats;
@@ -74,20 +83,23 @@ MarchImages coarser(const MarchImages& fine) {
         for (std::size_t i = 0; i < image / 2; ++i) {
             const std::size_t left = 2 * (i / kFloats) * kFloats + i % kFloats;
             for (const std::size_t slab : {2 * n * image, (2 * n + 1) * image})
-                out.mips[0][n * image / 2 + i] += 0.25f * (fine.mips[0][slab + left] + fine.mips[0][slab + left + kFloats]);
+                out.mips[0][n * image / 2 + i] +=
+                    0.25f * (fine.mips[0][slab + left] + fine.mips[0][slab + left + kFloats]);
         }
     return out;
 }
 
 grass::TextureArray packed(const MarchImages& images) {
-    grass::TextureArray array{images.width, images.height, images.layers, {}, grass::TexelFormat::kRgba16f};
+    grass::TextureArray array{
+        images.width, images.height, images.layers, {}, grass::TexelFormat::kRgba16f};
     for (const std::vector<float>& mip : images.mips) {
         std::vector<std::uint8_t> bytes(mip.size());
         for (std::size_t i = 0; i < mip.size(); ++i) {
             if (i % MarchImages::kFloats > MarchImages::kDensity)
                 continue;
             const std::uint16_t half = glm::packHalf1x16(std::min(mip[i], 60000.0f));
-            std::memcpy(&bytes[8 * (i / MarchImages::kFloats) + 2 * (i % MarchImages::kFloats)], &half, 2);
+            std::memcpy(&bytes[8 * (i / MarchImages::kFloats) + 2 * (i % MarchImages::kFloats)],
+                        &half, 2);
         }
         array.mips.push_back(std::move(bytes));
     }
@@ -101,10 +113,12 @@ grass::TextureArray packed_fibres(const MarchImages& images) {
         for (std::size_t i = 0; i < mip.size(); i += MarchImages::kFloats) {
             const float density = mip[i + MarchImages::kDensity];
             const float* sum = &mip[i + MarchImages::kDensity + 1];
-            const glm::vec4 mean = density > 0 ? glm::vec4(sum[0], sum[1], sum[2], sum[3]) / density : glm::vec4(0, 1, 0, 0.5f);
+            const glm::vec4 mean = density > 0 ? glm::vec4(sum[0], sum[1], sum[2], sum[3]) / density
+                                               : glm::vec4(0, 1, 0, 0.5f);
             const glm::vec4 coded(0.5f + 0.5f * mean.x, mean.y, 0.5f + 0.5f * mean.z, mean.w);
             for (int c = 0; c < 4; ++c)
-                bytes[i / 2 + static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(coded[c], 0.0f, 1.0f)));
+                bytes[i / 2 + static_cast<std::size_t>(c)] =
+                    static_cast<std::uint8_t>(std::lround(255 * std::clamp(coded[c], 0.0f, 1.0f)));
         }
         array.mips.push_back(std::move(bytes));
     }
@@ -112,7 +126,9 @@ grass::TextureArray packed_fibres(const MarchImages& images) {
 }
 
 /// Area as it counts where rays go mostly along these shares of the axes.
-double area_seen(const glm::dvec3& area, const glm::dvec3& way) { return glm::length(area * way); }
+double area_seen(const glm::dvec3& area, const glm::dvec3& way) {
+    return glm::length(area * way);
+}
 const glm::dvec3 kColumnWay(0.5, 0.6, 0.5), kLevelWay(0.7, 0.05, 0.7), kSteepWay(0, 1, 0);
 const glm::dvec3 kSlabWays[2] = {{0.87, 0.45, 0.2}, {0.2, 0.45, 0.87}};
 
@@ -137,21 +153,29 @@ glm::vec4 tint_of(const glm::dvec4& seen, const glm::dvec4& held) {
 
 } // namespace
 
-MarchBuilder::MarchBuilder(double side_m, double canopy_m, int variants, std::span<const double> seen)
-    : side_(side_m), canopy_(canopy_m), variants_(variants), columns_(images_of(kColumnSide, kColumnSide, variants * shared::kMarchLayers)),
+MarchBuilder::MarchBuilder(double side_m, double canopy_m, int variants,
+                           std::span<const double> seen)
+    : side_(side_m), canopy_(canopy_m), variants_(variants),
+      columns_(images_of(kColumnSide, kColumnSide, variants * shared::kMarchLayers)),
       slabs_(images_of(shared::kMarchTexels, kRows, variants * 2 * shared::kFinestSlabs)) {
     edges_[shared::kMarchLayers] = canopy_m;
     for (int i = shared::kMarchLayers - 1; i > 0; --i) {
         const double share = static_cast<double>(i) / shared::kMarchLayers;
         const double even = canopy_m * share;
-        const double met = seen.empty() ? even : seen[static_cast<std::size_t>(share * static_cast<double>(seen.size()))];
-        edges_[i] = std::clamp(0.85 * met + 0.15 * even, canopy_m * i / 200, edges_[i + 1] - canopy_m / 200);
+        const double met =
+            seen.empty() ? even
+                         : seen[static_cast<std::size_t>(share * static_cast<double>(seen.size()))];
+        edges_[i] = std::clamp(0.85 * met + 0.15 * even, canopy_m * i / 200,
+                               edges_[i + 1] - canopy_m / 200);
     }
 }
 
 void MarchBuilder::add(int variant, const SurfacePiece& piece) {
-    const auto cell = [](double share, int count) { return std::clamp(static_cast<int>(share * count), 0, count - 1); };
-    const double x = piece.place.x / side_ - std::floor(piece.place.x / side_), z = piece.place.z / side_ - std::floor(piece.place.z / side_);
+    const auto cell = [](double share, int count) {
+        return std::clamp(static_cast<int>(share * count), 0, count - 1);
+    };
+    const double x = piece.place.x / side_ - std::floor(piece.place.x / side_),
+                 z = piece.place.z / side_ - std::floor(piece.place.z / side_);
     const double y = std::clamp(piece.place.y, 0.0, canopy_);
     const double area = area_seen(piece.area, kColumnWay);
     const auto above = std::upper_bound(edges_.begin() + 1, edges_.end() - 1, y);
@@ -164,12 +188,19 @@ void MarchBuilder::add(int variant, const SurfacePiece& piece) {
     tints_[layer].steep += area_seen(piece.area, kSteepWay) * albedo;
     species_.resize(std::max(species_.size(), piece.species + 1), 0.0);
     species_[piece.species] += area * y;
-    add_piece(columns_, (static_cast<std::size_t>(variant * shared::kMarchLayers + layer) * kColumnSide + cell(z, kColumnSide)) * kColumnSide + cell(x, kColumnSide),
+    add_piece(columns_,
+              (static_cast<std::size_t>(variant * shared::kMarchLayers + layer) * kColumnSide +
+               cell(z, kColumnSide)) *
+                      kColumnSide +
+                  cell(x, kColumnSide),
               piece, area);
     for (const int axis : {shared::kAxisX, shared::kAxisZ}) {
         const int slab = cell(axis == shared::kAxisX ? x : z, shared::kFinestSlabs);
-        const auto image = static_cast<std::size_t>((variant * 2 + axis) * shared::kFinestSlabs + slab);
-        add_piece(slabs_, (image * kRows + cell(y / canopy_, kRows)) * shared::kMarchTexels + cell(axis == shared::kAxisX ? z : x, shared::kMarchTexels),
+        const auto image =
+            static_cast<std::size_t>((variant * 2 + axis) * shared::kFinestSlabs + slab);
+        add_piece(slabs_,
+                  (image * kRows + cell(y / canopy_, kRows)) * shared::kMarchTexels +
+                      cell(axis == shared::kAxisX ? z : x, shared::kMarchTexels),
                   piece, area_seen(piece.area, kSlabWays[axis]));
     }
 }
@@ -182,17 +213,22 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
         data.slabs[k] = coarser(data.slabs[k - 1]);
     make_mips(data.columns);
     const auto variants = static_cast<std::size_t>(variants_);
-    for (std::size_t m = 0; m < data.columns.mips.size(); ++m) { // a layer's mean is over its own images
-        const auto image = static_cast<std::size_t>(std::max(1, kColumnSide >> m)) * static_cast<std::size_t>(std::max(1, kColumnSide >> m));
+    for (std::size_t m = 0; m < data.columns.mips.size();
+         ++m) { // a layer's mean is over its own images
+        const auto image = static_cast<std::size_t>(std::max(1, kColumnSide >> m)) *
+                           static_cast<std::size_t>(std::max(1, kColumnSide >> m));
         for (std::size_t layer = 0; layer < shared::kMarchLayers; ++layer)
-            divide_by_mean(data.columns.mips[m], {layer * image, variants, shared::kMarchLayers * image, image});
+            divide_by_mean(data.columns.mips[m],
+                           {layer * image, variants, shared::kMarchLayers * image, image});
     }
     for (MarchImages& set : data.slabs) {
         make_mips(set);
         for (std::size_t m = 0; m < set.mips.size(); ++m) { // a row's over all slabs
-            const auto width = static_cast<std::size_t>(std::max(1, set.width >> m)), height = static_cast<std::size_t>(std::max(1, set.height >> m));
+            const auto width = static_cast<std::size_t>(std::max(1, set.width >> m)),
+                       height = static_cast<std::size_t>(std::max(1, set.height >> m));
             for (std::size_t row = 0; row < height; ++row)
-                divide_by_mean(set.mips[m], {row * width, static_cast<std::size_t>(set.layers), height * width, width});
+                divide_by_mean(set.mips[m], {row * width, static_cast<std::size_t>(set.layers),
+                                             height * width, width});
         }
     }
     const double ground = side_ * side_ * variants_;
@@ -202,7 +238,8 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
         above += areas_[i] / ground;
         data.medium.edges[i] = glm::vec4(glm::vec3(above), static_cast<float>(edges_[i]));
         const double area = std::max(moments_[i].x, 1e-12);
-        data.medium.layers[i] = {static_cast<float>(moments_[i].y / area), static_cast<float>(moments_[i].z / area), 0, 0};
+        data.medium.layers[i] = {static_cast<float>(moments_[i].y / area),
+                                 static_cast<float>(moments_[i].z / area), 0, 0};
         data.medium.level_tint[i] = tint_of(tints_[i].level, tints_[i].columns);
         data.medium.steep_tint[i] = tint_of(tints_[i].steep, tints_[i].columns);
     }
@@ -211,7 +248,8 @@ MarchData MarchBuilder::finish(std::span<const shared::GrassAppearance> looks) {
     for (std::size_t s = 0; s < species_.size() && s < looks.size(); ++s) {
         whole += species_[s];
         const shared::GrassGloss& own = looks[s].gloss;
-        gloss += species_[s] * glm::dvec4(own.diffuse, own.diffuse_power, own.specular, own.specular_power);
+        gloss += species_[s] *
+                 glm::dvec4(own.diffuse, own.diffuse_power, own.specular, own.specular_power);
         translucency += species_[s] * static_cast<double>(looks[s].translucency);
     }
     const glm::vec4 mean(gloss / std::max(whole, 1e-12));
@@ -233,17 +271,20 @@ void add_blades(const Patch& patch, int variant, MarchBuilder& builder) {
             const glm::dvec3 along = outline.centre[i + 1] - outline.centre[i];
             const glm::dvec3 normal = glm::abs(glm::cross(along, outline.across)); // per width
             const double length = glm::length(along);
-            const glm::vec3 tangent(length > 0 ? along / length * (along.y < 0 ? -1.0 : 1.0) : glm::dvec3(0, 1, 0));
+            const glm::vec3 tangent(length > 0 ? along / length * (along.y < 0 ? -1.0 : 1.0)
+                                               : glm::dvec3(0, 1, 0));
             const int pieces = std::max(1, static_cast<int>(std::ceil(length / fine)));
             for (int n = 0; n < pieces; ++n) {
                 const double t = (n + 0.5) / pieces, v = outline.between(i, t);
                 const double half = std::lerp(outline.half[i], outline.half[i + 1], t);
                 const int across = std::max(1, static_cast<int>(std::ceil(2 * half / fine)));
-                const glm::vec3 albedo = shared::blade_albedo(look, {blade.root.z, blade.root.w}, static_cast<float>(v), 1);
+                const glm::vec3 albedo = shared::blade_albedo(look, {blade.root.z, blade.root.w},
+                                                              static_cast<float>(v), 1);
                 for (int w = 0; w < across; ++w) {
                     const double aside = half * (2 * (w + 0.5) / across - 1);
-                    builder.add(variant, {outline.centre[i] + t * along + aside * outline.across, normal * (2 * half / across / pieces), albedo, tangent, blade.root.z, v,
-                                          species_of(blade)});
+                    builder.add(variant, {outline.centre[i] + t * along + aside * outline.across,
+                                          normal * (2 * half / across / pieces), albedo, tangent,
+                                          blade.root.z, v, species_of(blade)});
                 }
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From pieces of blades to what the far field's march reads (docs/far-field.md): the columns, three sets of slabs, and the mean areas
-// of the canopy. Blades come in pieces, and so does anything else that has a surface.
+// From pieces of blades to what the far field's march reads (docs/far-field.md): the columns, three
+// sets of slabs, and the mean areas of the canopy. Blades come in pieces, and so does anything else
+// that has a surface.
 #pragma once
 
 #include <array>
@@ -14,17 +15,17 @@ namespace sward::texgen {
 
 /// A small piece of surface.
 struct SurfacePiece {
-    glm::dvec3 place{0};  ///< patch coordinates, x and z on the torus (m)
-    glm::dvec3 area{0};   ///< projected along the axes (m2)
-    glm::vec3 albedo{0};  ///< linear reflectance
+    glm::dvec3 place{0};        ///< patch coordinates, x and z on the torus (m)
+    glm::dvec3 area{0};         ///< projected along the axes (m2)
+    glm::vec3 albedo{0};        ///< linear reflectance
     glm::vec3 tangent{0, 1, 0}; ///< unit, up
     float rank = 0.5f;
-    double along = 0;     ///< place along the blade, 0 root .. 1 tip
+    double along = 0; ///< place along the blade, 0 root .. 1 tip
     std::size_t species = 0;
 };
 
-/// The march's textures in floats, with all mips. Of a texel: albedo times density, density, mean tangent times density, rank times
-/// density; densities are relative to the mean of their height.
+/// The march's textures in floats, with all mips. Of a texel: albedo times density, density, mean
+/// tangent times density, rank times density; densities are relative to the mean of their height.
 struct MarchImages {
     static constexpr std::size_t kFloats = 8;
     static constexpr std::size_t kDensity = 3;
@@ -51,13 +52,14 @@ private:
     int variants_;
     std::array<double, shared::kMarchLayers + 1> edges_{};
     std::array<glm::dvec3, shared::kMarchLayers> areas_{};
-    /// Of a layer: area as the columns weight it, the same times the tangent's upright part and times the place along the blade.
+    /// Of a layer: area as the columns weight it, the same times the tangent's upright part and
+    /// times the place along the blade.
     std::array<glm::dvec3, shared::kMarchLayers> moments_{};
     struct Tint {
         glm::dvec4 columns{0}, level{0}, steep{0}; ///< albedo times area, area, as each sees it
     };
     std::array<Tint, shared::kMarchLayers> tints_{};
-    std::vector<double> species_;                            ///< area of each, weighted by height
+    std::vector<double> species_; ///< area of each, weighted by height
     MarchImages columns_, slabs_;
 };
 
@@ -65,8 +67,10 @@ private:
 void add_blades(const Patch& patch, int variant, MarchBuilder& builder);
 
 class VoxelField;
-/// The same of an imported volume's voxels: of each the part of its faces that it covers, in the voxels' own colours where the volume has some.
-void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, MarchBuilder& builder);
+/// The same of an imported volume's voxels: of each the part of its faces that it covers, in the
+/// voxels' own colours where the volume has some.
+void add_voxels(const VoxelField& field, const shared::GrassAppearance& look,
+                MarchBuilder& builder);
 
 /// What the renderer reads of it: half floats.
 [[nodiscard]] grass::FarMedium pack_march(const MarchData& data);

@@ -19,7 +19,8 @@ constexpr double kLowest = 1.5;  // elevation: rays along the ground have no end
 /// Blades of one variant over ground that rises along x, in heights over that ground.
 class SlopedBlades {
 public:
-    SlopedBlades(const Patch& patch, int variant, double canopy, double slope) : rest_(patch.variant(variant)), canopy_(canopy) {
+    SlopedBlades(const Patch& patch, int variant, double canopy, double slope)
+        : rest_(patch.variant(variant)), canopy_(canopy) {
         std::vector<shared::BladeRecord> leant(rest_.begin(), rest_.end());
         double top = canopy;
         for (shared::BladeRecord& blade : leant) {
@@ -32,7 +33,8 @@ public:
         field_.emplace(leant, patch.looks, patch.side_m, top);
     }
     [[nodiscard]] double top() const { return top_; }
-    /// What a ray meets: its height at rest, over the canopy's; how far it leans against the ray's way over the ground (sine).
+    /// What a ray meets: its height at rest, over the canopy's; how far it leans against the ray's
+    /// way over the ground (sine).
     [[nodiscard]] std::optional<glm::dvec2> meet(const SampleRay& ray) const {
         const std::optional<RayHit> hit = field_->cast(ray.origin, ray.direction);
         if (!hit)
@@ -41,7 +43,9 @@ public:
         const glm::vec3 v1(own.v1), v2(own.v2);
         const auto v = static_cast<float>(hit->along);
         const glm::dvec3 tangent = shared::blade_tangent(v1, v2, v);
-        return glm::dvec2(shared::blade_curve(v1, v2, v).y / canopy_, (tangent.y < 0 ? tangent.x : -tangent.x) * (ray.direction.x < 0 ? -1 : 1));
+        return glm::dvec2(shared::blade_curve(v1, v2, v).y / canopy_,
+                          (tangent.y < 0 ? tangent.x : -tangent.x) *
+                              (ray.direction.x < 0 ? -1 : 1));
     }
 
 private:
@@ -51,12 +55,14 @@ private:
 };
 
 /// Mean of what rays meet that go along x, up (`way` 1) or down (-1) the slope.
-glm::dvec2 mean_of(const std::vector<SlopedBlades>& variants, const Patch& patch, double elevation_deg, double way, int rays) {
+glm::dvec2 mean_of(const std::vector<SlopedBlades>& variants, const Patch& patch,
+                   double elevation_deg, double way, int rays) {
     const double elevation = elevation_deg * std::numbers::pi / 180;
     glm::dvec2 sum(0);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {
-        const SlopedBlades& blades = variants[static_cast<std::size_t>(i) * variants.size() / static_cast<std::size_t>(rays)];
+        const SlopedBlades& blades = variants[static_cast<std::size_t>(i) * variants.size() /
+                                              static_cast<std::size_t>(rays)];
         SampleRay ray = sample_ray(i, elevation_deg, patch.side_m, blades.top());
         ray.direction = {way * std::cos(elevation), -std::sin(elevation), 0};
         if (const auto met = blades.meet(ray)) {
@@ -78,8 +84,10 @@ void fit_slopes(const Patch& patch, int rays, int threads, shared::MarchMedium& 
     const int count = std::min(rays, kSlopeRays);
     parallel_for(shared::kMarchElevations, resolve_threads(threads), [&](std::size_t row, int) {
         const double elevation = std::clamp(5.0 * static_cast<double>(row), kLowest, 89.9);
-        const glm::dvec2 flat = 0.5 * (mean_of(level, patch, elevation, 1, count / 2) + mean_of(level, patch, elevation, -1, count / 2));
-        const glm::dvec2 down = mean_of(sloped, patch, elevation, -1, count), up = mean_of(sloped, patch, elevation, 1, count);
+        const glm::dvec2 flat = 0.5 * (mean_of(level, patch, elevation, 1, count / 2) +
+                                       mean_of(level, patch, elevation, -1, count / 2));
+        const glm::dvec2 down = mean_of(sloped, patch, elevation, -1, count),
+                         up = mean_of(sloped, patch, elevation, 1, count);
         medium.slopes[row] = glm::vec4(down.y, flat.y, up.y, up.x - flat.x);
     });
 }

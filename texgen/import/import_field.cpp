@@ -13,13 +13,17 @@ namespace sward::texgen {
 namespace {
 
 constexpr std::size_t kIds = 65536; // a rank and a seed
-constexpr float kOpaque = 0.999f;   // a cloud's voxel lets some light through, so that powers of it exist
-constexpr double kFacingSpread = 40 * std::numbers::pi / 180; // as patch.cpp turns blades about the way they bend
+constexpr float kOpaque =
+    0.999f; // a cloud's voxel lets some light through, so that powers of it exist
+constexpr double kFacingSpread =
+    40 * std::numbers::pi / 180; // as patch.cpp turns blades about the way they bend
 
-std::uint8_t byte_of(float unit) { return static_cast<std::uint8_t>(std::clamp(static_cast<int>(unit * 256), 0, 255)); }
+std::uint8_t byte_of(float unit) {
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(unit * 256), 0, 255));
+}
 
-/// Low-discrepancy over a grid of places: the generalised golden ratios of two and three dimensions, so that rank and
-/// seed are each spread evenly, and over each other.
+/// Low-discrepancy over a grid of places: the generalised golden ratios of two and three
+/// dimensions, so that rank and seed are each spread evenly, and over each other.
 double spread(int x, int z, double a, double b) {
     const double v = x * a + z * b;
     return v - std::floor(v);
@@ -49,8 +53,8 @@ VoxelIndex::VoxelIndex(const Volume& volume) : cells_(volume.cells) {
 
 std::uint32_t VoxelIndex::before(int x, int y, int z) const {
     const std::uint64_t c = cell(x, y, z);
-    return count_[c / 64] +
-           static_cast<std::uint32_t>(std::popcount(bits_[c / 64] & ((std::uint64_t{1} << (c % 64)) - 1)));
+    return count_[c / 64] + static_cast<std::uint32_t>(std::popcount(
+                                bits_[c / 64] & ((std::uint64_t{1} << (c % 64)) - 1)));
 }
 
 std::int64_t VoxelIndex::at(int x, int y, int z) const {
@@ -62,7 +66,8 @@ std::int64_t VoxelIndex::at(int x, int y, int z) const {
 
 VoxelField::VoxelField(const Volume& volume, double density)
     : volume_(volume), index_(volume), density_(static_cast<float>(density)),
-      blades_(!volume.preset.empty() && !volume.rank.empty() && !volume.seed.empty() && !volume.tangent.empty()) {
+      blades_(!volume.preset.empty() && !volume.rank.empty() && !volume.seed.empty() &&
+              !volume.tangent.empty()) {
     if (blades_)
         find_roots();
     if (volume.tangent.empty())
@@ -89,8 +94,8 @@ void VoxelField::find_directions() {
         tangents_[i] = gradient_direction(i);
 }
 
-/// Direction of least change of the density about a voxel (structure tensor of its 3 x 3 x 3 neighbours): along a strand
-/// the density stays as it is. Upright where nothing tells.
+/// Direction of least change of the density about a voxel (structure tensor of its 3 x 3 x 3
+/// neighbours): along a strand the density stays as it is. Upright where nothing tells.
 glm::vec3 VoxelField::gradient_direction(std::size_t i) const {
     const VoxelPlace& p = volume_.at[i];
     const auto value = [&](int x, int y, int z) {
@@ -104,14 +109,16 @@ glm::vec3 VoxelField::gradient_direction(std::size_t i) const {
         for (int dz = -1; dz <= 1; ++dz)
             for (int dx = -1; dx <= 1; ++dx) {
                 const int x = p.x + dx, y = p.y + dy, z = p.z + dz;
-                const glm::vec3 g(value(x + 1, y, z) - value(x - 1, y, z), value(x, y + 1, z) - value(x, y - 1, z),
+                const glm::vec3 g(value(x + 1, y, z) - value(x - 1, y, z),
+                                  value(x, y + 1, z) - value(x, y - 1, z),
                                   value(x, y, z + 1) - value(x, y, z - 1));
                 tensor += glm::outerProduct(g, g);
             }
     const float trace = tensor[0][0] + tensor[1][1] + tensor[2][2];
     if (!(trace > 1e-6f))
         return {0, 1, 0};
-    // Inverse iteration finds the eigenvector of the least eigenvalue; the shift keeps a flat place upright.
+    // Inverse iteration finds the eigenvector of the least eigenvalue; the shift keeps a flat place
+    // upright.
     const glm::mat3 inverse = glm::inverse(tensor + glm::mat3(0.02f * trace));
     glm::vec3 t(0, 1, 0);
     for (int step = 0; step < 8; ++step)
@@ -128,14 +135,16 @@ std::uint32_t VoxelField::strand(std::size_t i) const {
 
 int VoxelField::rank8(std::size_t i) const {
     const VoxelPlace& p = volume_.at[i];
-    return volume_.rank.empty() ? static_cast<int>(spread(p.x, p.z, 0.7548776662466927, 0.5698402909980532) * 256)
-                                : byte_of(volume_.rank[i]);
+    return volume_.rank.empty()
+               ? static_cast<int>(spread(p.x, p.z, 0.7548776662466927, 0.5698402909980532) * 256)
+               : byte_of(volume_.rank[i]);
 }
 
 int VoxelField::seed8(std::size_t i) const {
     const VoxelPlace& p = volume_.at[i];
-    return volume_.seed.empty() ? static_cast<int>(spread(p.x, p.z, 0.8191725133961645, 0.6710436067037893) * 256)
-                                : byte_of(volume_.seed[i]);
+    return volume_.seed.empty()
+               ? static_cast<int>(spread(p.x, p.z, 0.8191725133961645, 0.6710436067037893) * 256)
+               : byte_of(volume_.seed[i]);
 }
 
 glm::vec3 VoxelField::tangent(std::size_t i) const {
@@ -161,7 +170,8 @@ glm::dvec2 VoxelField::root(std::size_t i) const {
     glm::dvec2 best = own;
     double least = 1e30;
     for (const glm::vec2& foot : feet_[strand(i)]) {
-        const glm::dvec2 offset(nearest_image(foot.x - own.x, side()), nearest_image(foot.y - own.y, side()));
+        const glm::dvec2 offset(nearest_image(foot.x - own.x, side()),
+                                nearest_image(foot.y - own.y, side()));
         if (glm::dot(offset, offset) < least) {
             least = glm::dot(offset, offset);
             best = own + offset;
@@ -183,9 +193,13 @@ double VoxelField::farthest_root() const {
 glm::vec3 VoxelField::normal(std::size_t i, const glm::vec3& tangent_there) const {
     const glm::vec3 t = tangent(i);
     const float flat = std::hypot(t.x, t.z);
-    // A blade bends over its flat side, give or take; the volume does not keep by how much, its blade's number does.
-    const double turn = (base::hash_unit(strand(i), 0, 0) * 2 - 1) * kFacingSpread + std::numbers::pi / 2;
-    const double azimuth = (flat > 1e-4f ? std::atan2(t.z, t.x) : base::hash_unit(strand(i), 1, 0) * 6.283185307) + turn;
+    // A blade bends over its flat side, give or take; the volume does not keep by how much, its
+    // blade's number does.
+    const double turn =
+        (base::hash_unit(strand(i), 0, 0) * 2 - 1) * kFacingSpread + std::numbers::pi / 2;
+    const double azimuth =
+        (flat > 1e-4f ? std::atan2(t.z, t.x) : base::hash_unit(strand(i), 1, 0) * 6.283185307) +
+        turn;
     const glm::vec3 across(std::cos(azimuth), 0, std::sin(azimuth));
     return glm::normalize(glm::cross(tangent_there, across));
 }
@@ -197,7 +211,8 @@ float VoxelField::others(std::size_t i) const {
 }
 
 float VoxelField::seen_along(std::size_t i, const glm::vec3& direction) const {
-    return blades_ ? density(i) * std::abs(glm::dot(normal(i, tangent(i)), direction)) : std::min(density(i), kOpaque);
+    return blades_ ? density(i) * std::abs(glm::dot(normal(i, tangent(i)), direction))
+                   : std::min(density(i), kOpaque);
 }
 
 } // namespace sward::texgen

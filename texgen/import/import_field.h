@@ -14,7 +14,8 @@
 
 namespace sward::texgen {
 
-/// Which cells of a volume's box are active, and where their values lie: a bit a cell, and the count before each word.
+/// Which cells of a volume's box are active, and where their values lie: a bit a cell, and the
+/// count before each word.
 class VoxelIndex {
 public:
     explicit VoxelIndex(const Volume& volume);
@@ -26,7 +27,8 @@ public:
 
 private:
     [[nodiscard]] std::uint64_t cell(int x, int y, int z) const {
-        return (static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(cells_.z) + static_cast<std::uint64_t>(z)) *
+        return (static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(cells_.z) +
+                static_cast<std::uint64_t>(z)) *
                    static_cast<std::uint64_t>(cells_.x) +
                static_cast<std::uint64_t>(x);
     }
@@ -35,8 +37,8 @@ private:
     std::vector<std::uint32_t> count_;
 };
 
-/// A volume as the importer sees it: every voxel belongs to a strand (a blade where the volume knows blades, else the
-/// column of its place), and has a direction.
+/// A volume as the importer sees it: every voxel belongs to a strand (a blade where the volume
+/// knows blades, else the column of its place), and has a direction.
 class VoxelField {
 public:
     VoxelField(const Volume& volume, double density);
@@ -53,24 +55,27 @@ public:
     [[nodiscard]] int seed8(std::size_t i) const;
     [[nodiscard]] glm::vec3 tangent(std::size_t i) const; ///< unit, upward
     [[nodiscard]] float along(std::size_t i) const;       ///< place along the strand, 0..1
-    [[nodiscard]] glm::dvec2 root(std::size_t i) const;   ///< x, z of the strand's foot, nearest image, metres
+    [[nodiscard]] glm::dvec2
+    root(std::size_t i) const; ///< x, z of the strand's foot, nearest image, metres
     [[nodiscard]] glm::dvec3 centre(std::size_t i) const;
     [[nodiscard]] bool coloured() const { return !volume_.colour.empty(); }
     /// Linear albedo of a voxel that the file gave one: what the far field's averages hold.
     [[nodiscard]] const glm::vec3& colour(std::size_t i) const { return volume_.colour[i]; }
-    /// The species that a texel names which shows the voxel, and its giver: one a voxel, or none for a volume of one species.
+    /// The species that a texel names which shows the voxel, and its giver: one a voxel, or none
+    /// for a volume of one species.
     [[nodiscard]] int species(std::size_t i) const { return species_.empty() ? 0 : species_[i]; }
     void paint(std::vector<std::uint8_t> species) { species_ = std::move(species); }
     /// Opacity of a cloud's voxel, or area over face of a blade's.
     [[nodiscard]] float density(std::size_t i) const { return volume_.density[i] * density_; }
 
-    /// Number of the other blades in a voxel, for what is hidden by strand: one beside each strand, since it mostly runs along.
+    /// Number of the other blades in a voxel, for what is hidden by strand: one beside each strand,
+    /// since it mostly runs along.
     [[nodiscard]] static std::uint32_t beside(std::uint32_t strand) { return strand | 1u << 16; }
     /// Share of a blade's voxel that belongs to others than its strand.
     [[nodiscard]] float others(std::size_t i) const;
 
-    /// What part of its face a voxel covers, seen along a unit direction: of a blade its area, foreshortened; of a cloud
-    /// its opacity over one voxel.
+    /// What part of its face a voxel covers, seen along a unit direction: of a blade its area,
+    /// foreshortened; of a cloud its opacity over one voxel.
     [[nodiscard]] float seen_along(std::size_t i, const glm::vec3& direction) const;
 
     /// Farthest of any voxel from its root, metres.
@@ -88,7 +93,7 @@ private:
     VoxelIndex index_;
     float density_;
     bool blades_;
-    std::vector<glm::vec3> tangents_; ///< estimated, where the volume has none
+    std::vector<glm::vec3> tangents_;          ///< estimated, where the volume has none
     std::vector<std::vector<glm::vec2>> feet_; ///< of each blade number (rank and seed), in metres
     std::vector<std::uint16_t> tops_;          ///< highest cell of each
     std::vector<std::uint8_t> species_;
@@ -102,7 +107,8 @@ private:
 
 /// Layers and slices of level `level` with mips.
 struct ImportQuery;
-[[nodiscard]] grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query, int level,
-                                            const grass::GrassSet& set, std::span<const double> seen);
+[[nodiscard]] grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query,
+                                            int level, const grass::GrassSet& set,
+                                            std::span<const double> seen);
 
 } // namespace sward::texgen

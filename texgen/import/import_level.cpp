@@ -45,8 +45,11 @@ public:
         }
         return gone;
     }
-    [[nodiscard]] const Part& largest() const { return *std::ranges::max_element(parts_, {}, &Part::sum); }
-    /// One of them by lot, weighted by what it covers, so that thin blades are not always hidden behind wide ones.
+    [[nodiscard]] const Part& largest() const {
+        return *std::ranges::max_element(parts_, {}, &Part::sum);
+    }
+    /// One of them by lot, weighted by what it covers, so that thin blades are not always hidden
+    /// behind wide ones.
     [[nodiscard]] const Part& by_lot(double lot) const {
         float left = 0;
         for (const Part& p : parts_)
@@ -63,8 +66,8 @@ private:
     std::array<Part, kParts> parts_;
 };
 
-/// The voxels of a slab behind each other. Pieces of one strand lie beside each other and add up, different strands hide
-/// each other by chance.
+/// The voxels of a slab behind each other. Pieces of one strand lie beside each other and add up,
+/// different strands hide each other by chance.
 class Column {
 public:
     void add(std::uint32_t strand, std::uint32_t voxel, float share) {
@@ -89,9 +92,11 @@ struct Cover {
     double low = 0, high = 0;
     Cover(double from, double to, double texel, int count)
         : first(std::clamp(static_cast<int>(std::floor(from / texel + 1e-6)), 0, count - 1)),
-          last(std::clamp(static_cast<int>(std::ceil(to / texel - 1e-6)) - 1, first, count - 1)), low(from / texel), high(to / texel) {}
+          last(std::clamp(static_cast<int>(std::ceil(to / texel - 1e-6)) - 1, first, count - 1)),
+          low(from / texel), high(to / texel) {}
     [[nodiscard]] float part(int i) const {
-        return static_cast<float>(std::max(0.0, std::min(high, i + 1.0) - std::max(low, static_cast<double>(i))));
+        return static_cast<float>(
+            std::max(0.0, std::min(high, i + 1.0) - std::max(low, static_cast<double>(i))));
     }
 };
 
@@ -104,7 +109,9 @@ public:
     /// Mip 0; a texel's `blade` is an index into records().
     TexelImage draw() {
         const glm::ivec3 cells = field_.volume().cells;
-        columns_.assign(static_cast<std::size_t>(cells[axes_.u]) * static_cast<std::size_t>(cells[axes_.v]), {});
+        columns_.assign(static_cast<std::size_t>(cells[axes_.u]) *
+                            static_cast<std::size_t>(cells[axes_.v]),
+                        {});
         direction_ = glm::vec3(0);
         direction_[axes_.slab] = 1;
         throw_voxels();
@@ -129,8 +136,10 @@ private:
         const double voxel = field_.volume().voxel_m;
         const glm::ivec3 cells = field_.volume().cells;
         glm::ivec3 low(0), high = cells;
-        low[axes_.slab] = std::clamp(static_cast<int>(std::floor(slab_.low / voxel + 1e-6)), 0, cells[axes_.slab]);
-        high[axes_.slab] = std::clamp(static_cast<int>(std::ceil(slab_.high / voxel - 1e-6)), 0, cells[axes_.slab]);
+        low[axes_.slab] = std::clamp(static_cast<int>(std::floor(slab_.low / voxel + 1e-6)), 0,
+                                     cells[axes_.slab]);
+        high[axes_.slab] = std::clamp(static_cast<int>(std::ceil(slab_.high / voxel - 1e-6)), 0,
+                                      cells[axes_.slab]);
         for (int y = low.y; y < high.y; ++y)
             for (int z = low.z; z < high.z; ++z) {
                 const std::uint32_t end = field_.index().before(high.x, y, z);
@@ -143,13 +152,17 @@ private:
         const VoxelPlace& p = field_.volume().at[i];
         const glm::ivec3 at(p.x, p.y, p.z);
         const double low = at[axes_.slab] * voxel;
-        const double inside = std::clamp((std::min(slab_.high, low + voxel) - std::max(slab_.low, low)) / voxel, 0.0, 1.0);
+        const double inside = std::clamp(
+            (std::min(slab_.high, low + voxel) - std::max(slab_.low, low)) / voxel, 0.0, 1.0);
         float seen = field_.seen_along(i, direction_);
-        seen = field_.blades() ? static_cast<float>(seen * inside) : static_cast<float>(1 - std::pow(1 - seen, inside));
+        seen = field_.blades() ? static_cast<float>(seen * inside)
+                               : static_cast<float>(1 - std::pow(1 - seen, inside));
         if (!(seen > 0))
             return;
-        const std::uint32_t strand = field_.blades() ? field_.strand(i) : i; // a cloud's voxels hide each other by chance
-        Column& column = columns_[static_cast<std::size_t>(at[axes_.v]) * static_cast<std::size_t>(field_.volume().cells[axes_.u]) +
+        const std::uint32_t strand =
+            field_.blades() ? field_.strand(i) : i; // a cloud's voxels hide each other by chance
+        Column& column = columns_[static_cast<std::size_t>(at[axes_.v]) *
+                                      static_cast<std::size_t>(field_.volume().cells[axes_.u]) +
                                   static_cast<std::size_t>(at[axes_.u])];
         const float others = seen * field_.others(i);
         column.add(strand, i, seen - others);
@@ -157,16 +170,21 @@ private:
             column.add(VoxelField::beside(strand), i, others);
     }
 
-    /// Columns stand beside each other: a texel has the mean of those in it, and one strand of theirs.
+    /// Columns stand beside each other: a texel has the mean of those in it, and one strand of
+    /// theirs.
     TexelImage spread_columns() {
         const glm::ivec3 cells = field_.volume().cells;
         const double voxel = field_.volume().voxel_m;
-        TexelImage image{slab_.width, slab_.height, std::vector<Texel>(static_cast<std::size_t>(slab_.width) * static_cast<std::size_t>(slab_.height))};
+        TexelImage image{slab_.width, slab_.height,
+                         std::vector<Texel>(static_cast<std::size_t>(slab_.width) *
+                                            static_cast<std::size_t>(slab_.height))};
         std::vector<Tally<4>> tallies(image.texels.size());
         for (int cv = 0; cv < cells[axes_.v]; ++cv) {
             const Cover v(cv * voxel, (cv + 1) * voxel, slab_.texel_v, slab_.height);
             for (int cu = 0; cu < cells[axes_.u]; ++cu) {
-                const Column& column = columns_[static_cast<std::size_t>(cv) * static_cast<std::size_t>(cells[axes_.u]) + static_cast<std::size_t>(cu)];
+                const Column& column = columns_[static_cast<std::size_t>(cv) *
+                                                    static_cast<std::size_t>(cells[axes_.u]) +
+                                                static_cast<std::size_t>(cu)];
                 const float coverage = column.coverage();
                 if (!(coverage > 0))
                     continue;
@@ -175,7 +193,9 @@ private:
                 for (int row = v.first; row <= v.last; ++row)
                     for (int x = u.first; x <= u.last; ++x) {
                         const float share = coverage * u.part(x) * v.part(row);
-                        const std::size_t t = static_cast<std::size_t>(row) * static_cast<std::size_t>(slab_.width) + static_cast<std::size_t>(x);
+                        const std::size_t t =
+                            static_cast<std::size_t>(row) * static_cast<std::size_t>(slab_.width) +
+                            static_cast<std::size_t>(x);
                         image.texels[t].coverage += share;
                         if (share > 0)
                             (void)tallies[t].add(field_.strand(best), best, share);
@@ -184,8 +204,10 @@ private:
         }
         for (std::size_t t = 0; t < tallies.size(); ++t)
             if (Texel& texel = image.texels[t]; texel.coverage > 0) {
-                const std::size_t voxel_index = tallies[t].by_lot(base::hash_unit(salt_, 1, t)).voxel;
-                texel = {std::min(texel.coverage, 1.0f), record(voxel_index), field_.along(voxel_index)};
+                const std::size_t voxel_index =
+                    tallies[t].by_lot(base::hash_unit(salt_, 1, t)).voxel;
+                texel = {std::min(texel.coverage, 1.0f), record(voxel_index),
+                         field_.along(voxel_index)};
             }
         return image;
     }
@@ -195,7 +217,8 @@ private:
         const glm::dvec2 root = field_.root(i);
         shared::BladeRecord blade{};
         blade.root = {static_cast<float>(root.x), static_cast<float>(root.y),
-                      (static_cast<float>(field_.rank8(i)) + 0.5f) / 256, (static_cast<float>(field_.seed8(i)) + 0.5f) / 256};
+                      (static_cast<float>(field_.rank8(i)) + 0.5f) / 256,
+                      (static_cast<float>(field_.seed8(i)) + 0.5f) / 256};
         blade.v1 = {t, 0}; // blade_tangent of a straight curve
         blade.v2 = {2.0f * t, 0};
         blade.shape.w = static_cast<float>(field_.species(i));
@@ -217,7 +240,8 @@ private:
 TextureArray empty_array(int width, int height, int layers) {
     TextureArray array{width, height, layers, {}};
     for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
-        array.mips.emplace_back(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * static_cast<std::size_t>(layers) * 4);
+        array.mips.emplace_back(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) *
+                                static_cast<std::size_t>(layers) * 4);
         if (w == 1 && h == 1)
             return array;
     }
@@ -242,40 +266,47 @@ struct Task {
                 projection.keep_strands(shown, ratio);
             const std::size_t bytes = image.texels.size() * 4;
             std::uint8_t* data = array->mips[m].data();
-            coder.code(shown, data + bytes * static_cast<std::size_t>(id_index), data + bytes * static_cast<std::size_t>(shape_index));
+            coder.code(shown, data + bytes * static_cast<std::size_t>(id_index),
+                       data + bytes * static_cast<std::size_t>(shape_index));
         }
     }
 };
 
-std::vector<Task> plan_tasks(const VoxelField& field, const grass::GrassSet& set, int level, grass::FarLevel& out) {
+std::vector<Task> plan_tasks(const VoxelField& field, const grass::GrassSet& set, int level,
+                             grass::FarLevel& out) {
     std::vector<Task> tasks;
     const int size = out.layers.width, rows = out.slices.height;
     const double side = field.side(), texel = side / size;
     const auto salt = [&](int family, int index) {
-        return base::hash64(set.seed, 7000 + static_cast<std::uint64_t>(level * 3 + family), static_cast<std::uint64_t>(index));
+        return base::hash64(set.seed, 7000 + static_cast<std::uint64_t>(level * 3 + family),
+                            static_cast<std::uint64_t>(index));
     };
     for (int i = 0; i < out.layer_count; ++i) {
         const auto at = static_cast<std::size_t>(i);
         const double top = i + 1 == out.layer_count ? field.canopy() : out.layer_edges[at + 1];
-        tasks.push_back({{Family::kLayer, out.layer_edges[at], top, size, size, texel, texel, side}, &out.layers,
+        tasks.push_back({{Family::kLayer, out.layer_edges[at], top, size, size, texel, texel, side},
+                         &out.layers,
                          shared::layer_index(0, i, out.layer_count, shared::kPlaneId),
-                         shared::layer_index(0, i, out.layer_count, shared::kPlaneShape), salt(0, i)});
+                         shared::layer_index(0, i, out.layer_count, shared::kPlaneShape),
+                         salt(0, i)});
     }
     for (const int axis : {shared::kAxisX, shared::kAxisZ})
         for (int i = 0; i < out.slice_count; ++i) {
             const double thick = side / out.slice_count;
-            tasks.push_back({{axis == shared::kAxisX ? Family::kSliceX : Family::kSliceZ, i * thick, (i + 1) * thick, size, rows, texel,
-                              field.canopy() / rows, side},
-                             &out.slices, shared::slice_index(0, axis, i, out.slice_count, shared::kPlaneId),
-                             shared::slice_index(0, axis, i, out.slice_count, shared::kPlaneShape), salt(1 + axis, i)});
+            tasks.push_back({{axis == shared::kAxisX ? Family::kSliceX : Family::kSliceZ, i * thick,
+                              (i + 1) * thick, size, rows, texel, field.canopy() / rows, side},
+                             &out.slices,
+                             shared::slice_index(0, axis, i, out.slice_count, shared::kPlaneId),
+                             shared::slice_index(0, axis, i, out.slice_count, shared::kPlaneShape),
+                             salt(1 + axis, i)});
         }
     return tasks;
 }
 
 } // namespace
 
-grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query, int level, const grass::GrassSet& set,
-                              std::span<const double> seen) {
+grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query, int level,
+                              const grass::GrassSet& set, std::span<const double> seen) {
     grass::FarLevel out;
     const int size = query.size >> level, rows = slice_rows(field.canopy(), field.side() / size);
     out.layer_count = std::max(2, query.layers >> level);
@@ -287,7 +318,8 @@ grass::FarLevel project_level(const VoxelField& field, const ImportQuery& query,
     out.slices = empty_array(size, rows, 2 * out.slice_count * shared::kPlanes);
     const Preset preset;
     const Patch patch;
-    const BakeFrame frame{preset, patch, set.canopy_m, set.offset_range_m, seen, query.threads, nullptr};
+    const BakeFrame frame{preset, patch,         set.canopy_m, set.offset_range_m,
+                          seen,   query.threads, nullptr};
     const std::vector<Task> tasks = plan_tasks(field, set, level, out);
     base::Progress progress(fmt::format("layers and slices, level {}", level), tasks.size());
     parallel_for(tasks.size(), resolve_threads(query.threads), [&](std::size_t t, int) {

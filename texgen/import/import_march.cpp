@@ -11,11 +11,13 @@ namespace sward::texgen {
 
 namespace {
 
-/// Parts a voxel is cut into along each axis, so that it fills the texels that it is as wide as; fewer where there are many voxels.
+/// Parts a voxel is cut into along each axis, so that it fills the texels that it is as wide as;
+/// fewer where there are many voxels.
 int parts_of(const VoxelField& field) {
     constexpr double kMostPieces = 4e7;
     const double texels = field.volume().voxel_m * shared::kMarchTexels / field.side();
-    const double affordable = std::cbrt(kMostPieces / static_cast<double>(std::max<std::size_t>(field.size(), 1)));
+    const double affordable =
+        std::cbrt(kMostPieces / static_cast<double>(std::max<std::size_t>(field.size(), 1)));
     return std::max(1, static_cast<int>(std::min(std::ceil(texels), std::min(affordable, 8.0))));
 }
 
@@ -32,7 +34,8 @@ void add_spread(SurfacePiece piece, double voxel_m, int parts, MarchBuilder& bui
 
 } // namespace
 
-void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, MarchBuilder& builder) {
+void add_voxels(const VoxelField& field, const shared::GrassAppearance& look,
+                MarchBuilder& builder) {
     const double face = field.volume().voxel_m * field.volume().voxel_m;
     const int parts = parts_of(field);
     for (std::size_t i = 0; i < field.size(); ++i) {
@@ -42,7 +45,9 @@ void add_voxels(const VoxelField& field, const shared::GrassAppearance& look, Ma
         piece.rank = (static_cast<float>(field.rank8(i)) + 0.5f) / 256.0f;
         piece.along = field.along(i);
         const float seed = (static_cast<float>(field.seed8(i)) + 0.5f) / 256.0f;
-        piece.albedo = field.coloured() ? field.colour(i) : shared::blade_albedo(look, {piece.rank, seed}, field.along(i), 1);
+        piece.albedo = field.coloured()
+                           ? field.colour(i)
+                           : shared::blade_albedo(look, {piece.rank, seed}, field.along(i), 1);
         for (int axis = 0; axis < 3; ++axis) {
             glm::vec3 way(0);
             way[axis] = 1;

@@ -12,9 +12,11 @@
 namespace sward::texgen {
 namespace {
 
-constexpr int kSteps = 32, kPlaces = 4;     // of a channel and of the place along the strand, for bins of like voxels
-constexpr double kApart = 0.15;             // of coded colours: more than one species' variation explains
-constexpr double kLeastShare = 2e-4;        // of the area: what is rarer is the rim of something else
+constexpr int kSteps = 32,
+              kPlaces =
+                  4; // of a channel and of the place along the strand, for bins of like voxels
+constexpr double kApart = 0.15;      // of coded colours: more than one species' variation explains
+constexpr double kLeastShare = 2e-4; // of the area: what is rarer is the rim of something else
 constexpr int kMostRounds = 12;
 
 /// Roughly as far apart as eyes find colours to be.
@@ -53,9 +55,11 @@ struct Line {
 
 std::size_t bin_of(const VoxelField& field, std::size_t i) {
     const glm::dvec3 colour = coded(field.colour(i));
-    std::size_t index = static_cast<std::size_t>(std::clamp(field.along(i) * kPlaces, 0.0f, kPlaces - 1.0f));
+    std::size_t index =
+        static_cast<std::size_t>(std::clamp(field.along(i) * kPlaces, 0.0f, kPlaces - 1.0f));
     for (int channel = 0; channel < 3; ++channel)
-        index = index * kSteps + static_cast<std::size_t>(std::clamp(colour[channel] * kSteps, 0.0, kSteps - 1.0));
+        index = index * kSteps +
+                static_cast<std::size_t>(std::clamp(colour[channel] * kSteps, 0.0, kSteps - 1.0));
     return index;
 }
 
@@ -99,7 +103,9 @@ std::vector<Line> find_lines(std::vector<Bin*>& bins, double all) {
     while (lines.size() < static_cast<std::size_t>(shared::kMaxSpecies)) {
         const Bin* farthest = nullptr;
         for (const Bin* bin : bins)
-            if (bin->weight > kLeastShare * all && (!farthest || apart(*bin, lines[bin->line]) > apart(*farthest, lines[farthest->line])))
+            if (bin->weight > kLeastShare * all &&
+                (!farthest ||
+                 apart(*bin, lines[bin->line]) > apart(*farthest, lines[farthest->line])))
                 farthest = bin;
         if (!farthest || apart(*farthest, lines[farthest->line]) < kApart)
             break;
@@ -111,10 +117,12 @@ std::vector<Line> find_lines(std::vector<Bin*>& bins, double all) {
     return lines;
 }
 
-/// The look of a line, with how far single voxels are from it: `error` is the mean square of their value's relative distance.
+/// The look of a line, with how far single voxels are from it: `error` is the mean square of their
+/// value's relative distance.
 shared::GrassAppearance look_of(const Line& line, double error) {
     shared::GrassAppearance look = appearance(Species{});
-    // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard deviation is 0.7 / sqrt 12.
+    // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard
+    // deviation is 0.7 / sqrt 12.
     const double variation = std::clamp(std::sqrt(error) / (0.7 / std::sqrt(12.0)), 0.0, 1.0);
     look.root = glm::vec3(line.root);
     look.dry_share = 0; // the voxels' own mean holds dry blades
@@ -166,8 +174,9 @@ Palette palette_of(const VoxelField& field) {
     for (std::size_t n = 0; n < order.size(); ++n) {
         const Line& line = lines[order[n]];
         number[order[n]] = static_cast<std::uint8_t>(n);
-        palette.species.push_back({n == 0 ? std::string("imported") : fmt::format("imported{}", n + 1), "blade",
-                                   static_cast<float>(line.w / all), look_of(line, errors[order[n]] / line.w)});
+        palette.species.push_back(
+            {n == 0 ? std::string("imported") : fmt::format("imported{}", n + 1), "blade",
+             static_cast<float>(line.w / all), look_of(line, errors[order[n]] / line.w)});
     }
     if (order.size() > 1) {
         palette.of_voxel.reserve(field.size());

@@ -18,8 +18,8 @@ namespace {
 
 constexpr double kClear = 1e-3; // what is left of a ray when it is given up
 
-/// Share of what a ray still sees, strand by strand: pieces of one blade lie beside each other and add up, different
-/// blades hide each other by chance.
+/// Share of what a ray still sees, strand by strand: pieces of one blade lie beside each other and
+/// add up, different blades hide each other by chance.
 class Sight {
 public:
     /// What the voxel takes of the sight.
@@ -59,8 +59,8 @@ int wrap(int i, int n) {
     return r < 0 ? r + n : r;
 }
 
-/// The field bent along +x by the warp of its shell images (B3). That moves every point of a height alike: so it is a
-/// pile of rigid rows, shifted and pressed together.
+/// The field bent along +x by the warp of its shell images (B3). That moves every point of a height
+/// alike: so it is a pile of rigid rows, shifted and pressed together.
 class BentVoxels {
 public:
     BentVoxels(const VoxelField& field, double lean) : field_(field) {
@@ -82,7 +82,8 @@ public:
     [[nodiscard]] std::int64_t meet(const SampleRay& ray, double random) const {
         Sight sight;
         Walk walk{ray, glm::vec3(ray.direction), random, sight, 1, -1};
-        for (int y = field_.volume().cells.y - 1; y >= 0 && walk.found < 0 && walk.clear > kClear; --y)
+        for (int y = field_.volume().cells.y - 1; y >= 0 && walk.found < 0 && walk.clear > kClear;
+             --y)
             cross_row(y, walk);
         return walk.found;
     }
@@ -112,14 +113,16 @@ private:
             return;
         // Pressed rows hold the same area in less height.
         const double dense = voxel / (edges_[row + 1] - edges_[row]);
-        glm::dvec2 p(ray.origin.x + begin * ray.direction.x - shifts_[row], ray.origin.z + begin * ray.direction.z);
+        glm::dvec2 p(ray.origin.x + begin * ray.direction.x - shifts_[row],
+                     ray.origin.z + begin * ray.direction.z);
         p /= voxel;
         const glm::dvec2 d(ray.direction.x / voxel, ray.direction.z / voxel);
         glm::ivec2 cell(glm::floor(p));
         glm::dvec2 next, delta;
         for (int a = 0; a < 2; ++a) {
             delta[a] = std::abs(d[a]) > 1e-9 ? 1 / std::abs(d[a]) : 1e30;
-            next[a] = std::abs(d[a]) > 1e-9 ? begin + (cell[a] + (d[a] > 0 ? 1 : 0) - p[a]) / d[a] : 1e30;
+            next[a] =
+                std::abs(d[a]) > 1e-9 ? begin + (cell[a] + (d[a] > 0 ? 1 : 0) - p[a]) / d[a] : 1e30;
         }
         double at = begin;
         while (at < end && walk.found < 0 && walk.clear > kClear) {
@@ -140,7 +143,8 @@ private:
             return;
         const auto i = static_cast<std::size_t>(n);
         if (field_.blades()) {
-            const float seen = field_.density(i) * std::abs(glm::dot(field_.normal(i, tangent(i)), walk.way));
+            const float seen =
+                field_.density(i) * std::abs(glm::dot(field_.normal(i, tangent(i)), walk.way));
             const double others = field_.others(i);
             walk.sight.take(field_.strand(i), seen * length * (1 - others));
             if (others > 0)
@@ -168,16 +172,21 @@ Canopy volume_canopy(const VoxelField& field, const shared::GrassAppearance& loo
     canopy.looks = {look};
     canopy.bent = [&field, &look](double lean) {
         const auto bent = std::make_shared<const BentVoxels>(field, lean);
-        return std::vector<Caster>{[&field, &look, bent](const SampleRay& ray, std::uint64_t number) -> std::optional<GrassHit> {
-            const std::int64_t n = bent->meet(ray, base::hash_unit(17, 0, number));
-            if (n < 0)
-                return std::nullopt;
-            const auto i = static_cast<std::size_t>(n);
-            const shared::vec2 id((static_cast<float>(field.rank8(i)) + 0.5f) / 256, (static_cast<float>(field.seed8(i)) + 0.5f) / 256);
-            const glm::vec3 albedo = field.coloured() ? field.colour(i) : glm::vec3(shared::blade_albedo(look, id, field.along(i), 0));
-            return GrassHit{albedo, bent->tangent(i),
-                            field.centre(i).y / field.canopy(), field.along(i), 0};
-        }};
+        return std::vector<Caster>{
+            [&field, &look, bent](const SampleRay& ray,
+                                  std::uint64_t number) -> std::optional<GrassHit> {
+                const std::int64_t n = bent->meet(ray, base::hash_unit(17, 0, number));
+                if (n < 0)
+                    return std::nullopt;
+                const auto i = static_cast<std::size_t>(n);
+                const shared::vec2 id((static_cast<float>(field.rank8(i)) + 0.5f) / 256,
+                                      (static_cast<float>(field.seed8(i)) + 0.5f) / 256);
+                const glm::vec3 albedo =
+                    field.coloured() ? field.colour(i)
+                                     : glm::vec3(shared::blade_albedo(look, id, field.along(i), 0));
+                return GrassHit{albedo, bent->tangent(i), field.centre(i).y / field.canopy(),
+                                field.along(i), 0};
+            }};
     };
     return canopy;
 }
@@ -188,7 +197,8 @@ std::vector<double> heights_seen(const VoxelField& field, int threads) {
     const BentVoxels rest(field, 0);
     std::vector<double> heights(kViews.size() * kEach, -1);
     parallel_for(heights.size(), resolve_threads(threads), [&](std::size_t task, int) {
-        const SampleRay ray = sample_ray(static_cast<int>(task % kEach), kViews[task / kEach], field.side(), field.canopy());
+        const SampleRay ray = sample_ray(static_cast<int>(task % kEach), kViews[task / kEach],
+                                         field.side(), field.canopy());
         if (const std::int64_t n = rest.meet(ray, base::hash_unit(11, 0, task)); n >= 0)
             heights[task] = field.centre(static_cast<std::size_t>(n)).y;
     });

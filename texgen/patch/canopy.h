@@ -42,7 +42,8 @@ struct Outline {
 /// Top of the highest blade of any variant, metres.
 [[nodiscard]] double canopy_height(const Patch& patch);
 
-/// Farthest that any blade reaches sideways from its root, half width included, metres: an upper bound.
+/// Farthest that any blade reaches sideways from its root, half width included, metres: an upper
+/// bound.
 [[nodiscard]] double reach(const Patch& patch);
 
 /// Signed distance on a circle of circumference `period`, nearest image.

@@ -164,9 +164,10 @@ Patch unranked_patch(const Preset& preset, int threads) {
     parallel_for((each + kRun - 1) / kRun, resolve_threads(threads), [&](std::size_t run, int) {
         for (std::size_t i = run * kRun; i < std::min(each, (run + 1) * kRun); ++i)
             for (std::size_t v = 0; v < roots.interior.size(); ++v)
-                patch.blades[v * each + i] = i >= border ? grow(preset, roots.interior[v][i - border])
-                                             : v == 0    ? grow(preset, roots.border[i])
-                                                         : patch.blades[i];
+                patch.blades[v * each + i] = i >= border
+                                                 ? grow(preset, roots.interior[v][i - border])
+                                             : v == 0 ? grow(preset, roots.border[i])
+                                                      : patch.blades[i];
     });
     return patch;
 }

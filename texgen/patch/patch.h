@@ -15,8 +15,8 @@ namespace sward::texgen {
 struct Patch {
     double side_m = 0;
     std::vector<shared::GrassAppearance> looks; ///< of the species, by number
-    std::vector<shared::BladeRecord> blades;  ///< variant-major; inside a variant by rising rank
-    std::vector<std::uint32_t> variant_begin; ///< variants + 1
+    std::vector<shared::BladeRecord> blades;    ///< variant-major; inside a variant by rising rank
+    std::vector<std::uint32_t> variant_begin;   ///< variants + 1
 
     [[nodiscard]] int variants() const { return static_cast<int>(variant_begin.size()) - 1; }
     [[nodiscard]] std::span<const shared::BladeRecord> variant(int v) const {

@@ -6,7 +6,8 @@
 
 namespace sward::texgen {
 
-/// The blades of generate_patch without ranks and seeds, in no order: all that sizes and heights ask for.
+/// The blades of generate_patch without ranks and seeds, in no order: all that sizes and heights
+/// ask for.
 [[nodiscard]] Patch unranked_patch(const Preset& preset, int threads);
 
 } // namespace sward::texgen

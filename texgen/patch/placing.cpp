@@ -22,7 +22,8 @@ public:
         std::array<double, kBins> weight;
         weight.fill(1e-3); // where nothing is seen, layers still spread evenly
         for (const double y : seen)
-            weight[static_cast<std::size_t>(std::clamp(static_cast<int>(y / canopy_m * kBins), 0, kBins - 1))] += 1;
+            weight[static_cast<std::size_t>(
+                std::clamp(static_cast<int>(y / canopy_m * kBins), 0, kBins - 1))] += 1;
         for (std::size_t i = 0; i < kBins; ++i) {
             sum_[i + 1] = sum_[i] + weight[i];
             moment_[i + 1] = moment_[i] + weight[i] * middle(i);
@@ -40,12 +41,15 @@ public:
     [[nodiscard]] double cost(std::size_t a, std::size_t b) const {
         const std::size_t m = median(a, b);
         const double at = middle(m);
-        return at * (sum_[m] - sum_[a]) - (moment_[m] - moment_[a]) + (moment_[b] - moment_[m]) - at * (sum_[b] - sum_[m]);
+        return at * (sum_[m] - sum_[a]) - (moment_[m] - moment_[a]) + (moment_[b] - moment_[m]) -
+               at * (sum_[b] - sum_[m]);
     }
     [[nodiscard]] double middle(std::size_t bin) const {
         return (static_cast<double>(bin) + 0.5) / kBins * canopy_m_;
     }
-    [[nodiscard]] double edge(std::size_t bin) const { return static_cast<double>(bin) / kBins * canopy_m_; }
+    [[nodiscard]] double edge(std::size_t bin) const {
+        return static_cast<double>(bin) / kBins * canopy_m_;
+    }
 
 private:
     double canopy_m_;
@@ -107,7 +111,8 @@ Placing place_layers(std::span<const double> seen, double canopy_m, int count) {
     Placing placing;
     for (std::size_t i = 0; i + 1 < bins.size(); ++i) {
         placing.edges.push_back(static_cast<float>(histogram.edge(bins[i])));
-        placing.heights.push_back(static_cast<float>(histogram.middle(histogram.median(bins[i], bins[i + 1]))));
+        placing.heights.push_back(
+            static_cast<float>(histogram.middle(histogram.median(bins[i], bins[i + 1]))));
     }
     placing.edges.push_back(static_cast<float>(canopy_m));
     return placing;
@@ -126,7 +131,8 @@ double placing_error(std::span<const double> seen, const Placing& placing) {
     double sum = 0;
     for (const double y : seen) {
         const auto above = std::ranges::upper_bound(placing.edges, static_cast<float>(y));
-        const auto layer = std::clamp<std::ptrdiff_t>(above - placing.edges.begin() - 1, 0, std::ssize(placing.heights) - 1);
+        const auto layer = std::clamp<std::ptrdiff_t>(above - placing.edges.begin() - 1, 0,
+                                                      std::ssize(placing.heights) - 1);
         sum += std::abs(y - placing.heights[static_cast<std::size_t>(layer)]);
     }
     return seen.empty() ? 0 : sum / static_cast<double>(seen.size());

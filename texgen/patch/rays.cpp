@@ -13,8 +13,12 @@ constexpr int kCells = 128; // along each side of the patch; a power of two
 constexpr int kLayers = 16; // of cells, from the ground to the highest blade
 
 /// Which cell of the patch a cell of the plane is, and in which image of the patch it lies.
-int in_patch(int cell) { return cell & (kCells - 1); }
-int tile_of(int cell) { return (cell - in_patch(cell)) / kCells; }
+int in_patch(int cell) {
+    return cell & (kCells - 1);
+}
+int tile_of(int cell) {
+    return (cell - in_patch(cell)) / kCells;
+}
 
 /// Radical inverse.
 double halton(int index, int base) {
@@ -49,7 +53,8 @@ struct Walk {
 
 BladeField::BladeField(std::span<const shared::BladeRecord> blades,
                        std::span<const shared::GrassAppearance> species, double side, double canopy)
-    : side_(side), canopy_(canopy), outlines_(outlines_of(blades, species)), first_(kCells * kCells * kLayers + 1) {
+    : side_(side), canopy_(canopy), outlines_(outlines_of(blades, species)),
+      first_(kCells * kCells * kLayers + 1) {
     pieces_.reserve(outlines_.size() * Outline::kSegments);
     for (const Outline& outline : outlines_) {
         top_ = std::max(top_, outline.high.y);
@@ -68,7 +73,9 @@ BladeField::BladeField(std::span<const shared::BladeRecord> blades,
 
 void BladeField::make_piece(const Outline& outline, int segment) {
     const auto i = static_cast<std::size_t>(segment);
-    Piece piece{outline.centre[i], outline.centre[i + 1] - outline.centre[i], outline.across, {}, 0, 0, 0, outline.half[i], outline.half[i + 1] - outline.half[i]};
+    Piece piece{
+        outline.centre[i], outline.centre[i + 1] - outline.centre[i], outline.across, {}, 0, 0, 0,
+        outline.half[i],   outline.half[i + 1] - outline.half[i]};
     piece.normal = glm::cross(piece.along, piece.across);
     piece.plane = glm::dot(piece.centre, piece.normal);
     piece.skew = glm::dot(piece.along, piece.across);
@@ -82,30 +89,38 @@ template<class Visit> void BladeField::each_cell(std::uint32_t number, Visit&& v
     glm::dvec3 low(1e30), high(-1e30);
     for (const double end : {0.0, 1.0})
         for (const double sign : {-1.0, 1.0}) {
-            const glm::dvec3 corner = piece.centre + end * piece.along + sign * (piece.half + end * piece.taper) * piece.across;
+            const glm::dvec3 corner = piece.centre + end * piece.along +
+                                      sign * (piece.half + end * piece.taper) * piece.across;
             low = glm::min(low, corner);
             high = glm::max(high, corner);
         }
     low -= 1e-6;
     high += 1e-6;
     const auto index = [&](double v) { return static_cast<int>(std::floor(v / side_ * kCells)); };
-    const auto layer = [&](double y) { return std::clamp(static_cast<int>(std::floor(y / layer_)), 0, kLayers - 1); };
+    const auto layer = [&](double y) {
+        return std::clamp(static_cast<int>(std::floor(y / layer_)), 0, kLayers - 1);
+    };
     const auto tile = [](int c) { return static_cast<std::int8_t>(-tile_of(c)); };
     const glm::dvec3 middle = piece.centre + 0.5 * piece.along;
-    const double radius = 0.5 * glm::length(piece.along) + std::max(piece.half, piece.half + piece.taper) + 1e-5; // and what floats lose
+    const double radius = 0.5 * glm::length(piece.along) +
+                          std::max(piece.half, piece.half + piece.taper) +
+                          1e-5; // and what floats lose
     for (int z = index(low.z); z <= index(high.z); ++z)
         for (int x = index(low.x); x <= index(high.x); ++x)
             for (int y = layer(low.y); y <= layer(high.y); ++y)
                 visit(static_cast<std::size_t>((in_patch(z) * kCells + in_patch(x)) * kLayers + y),
-                      Item{middle + side_ * glm::dvec3(tile(x), 0, tile(z)), static_cast<float>(radius), number, tile(x), tile(z)});
+                      Item{middle + side_ * glm::dvec3(tile(x), 0, tile(z)),
+                           static_cast<float>(radius), number, tile(x), tile(z)});
 }
 
 std::span<const BladeField::Item> BladeField::cell(int x, int y, int z) const {
-    const auto i = static_cast<std::size_t>((in_patch(z) * kCells + in_patch(x)) * kLayers + std::clamp(y, 0, kLayers - 1));
+    const auto i = static_cast<std::size_t>((in_patch(z) * kCells + in_patch(x)) * kLayers +
+                                            std::clamp(y, 0, kLayers - 1));
     return {items_.data() + first_[i], items_.data() + first_[i + 1]};
 }
 
-void BladeField::meet(const Item& item, const glm::dvec3& origin, const glm::dvec3& direction, std::optional<RayHit>& best) const {
+void BladeField::meet(const Item& item, const glm::dvec3& origin, const glm::dvec3& direction,
+                      std::optional<RayHit>& best) const {
     const Piece& piece = pieces_[item.piece];
     // origin + t direction = centre + a along + w across: a 3 x 3 system by Cramer's rule.
     const double det = glm::dot(direction, piece.normal);
@@ -145,7 +160,8 @@ std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,
     if (direction.y > 0)
         end = std::min(end, t + (top_ - start.y) / direction.y + 1e-6); // there is nothing above
     const double width = side_ / kCells;
-    Walk x(start.x, direction.x, width), y(start.y, direction.y, layer_), z(start.z, direction.z, width);
+    Walk x(start.x, direction.x, width), y(start.y, direction.y, layer_),
+        z(start.z, direction.z, width);
     std::optional<RayHit> best;
     const glm::vec3 way(direction);
     double entry = 0; // along the ray from `start`
@@ -157,8 +173,10 @@ std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,
         for (const Item& item : cell(x.cell, y.cell, z.cell)) {
             const glm::vec3 to = item.middle - here;
             const float along = glm::dot(to, way);
-            if (along > -item.radius && along < through + item.radius && glm::dot(to, to) - along * along < item.radius * item.radius)
-                meet(item, start - side_ * (tile + glm::dvec3(item.tile_x, 0, item.tile_z)), direction, best);
+            if (along > -item.radius && along < through + item.radius &&
+                glm::dot(to, to) - along * along < item.radius * item.radius)
+                meet(item, start - side_ * (tile + glm::dvec3(item.tile_x, 0, item.tile_z)),
+                     direction, best);
         }
         if (best && best->distance <= exit)
             break;

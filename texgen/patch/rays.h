@@ -38,12 +38,14 @@ public:
 private:
     /// A segment of an outline as rays meet it: what does not depend on the ray, reckoned once.
     struct Piece {
-        glm::dvec3 centre, along, across, normal; ///< root end, to the tip end, unit width direction, their cross product
-        double plane;                             ///< of the points in it: dot(point, normal)
-        double skew, stretch;                     ///< dot(along, across); 1 / (|along|^2 - skew^2)
-        double half, taper;                       ///< half width at the root end, and how it changes to the tip end
+        glm::dvec3 centre, along, across,
+            normal;   ///< root end, to the tip end, unit width direction, their cross product
+        double plane; ///< of the points in it: dot(point, normal)
+        double skew, stretch; ///< dot(along, across); 1 / (|along|^2 - skew^2)
+        double half, taper;   ///< half width at the root end, and how it changes to the tip end
     };
-    /// A piece in a cell that it reaches into. The ball lies beside its neighbours' in memory: most pieces are passed by without being read.
+    /// A piece in a cell that it reaches into. The ball lies beside its neighbours' in memory: most
+    /// pieces are passed by without being read.
     struct Item {
         glm::vec3 middle; ///< of a ball about the piece, where it reaches into the cell
         float radius;
@@ -53,7 +55,8 @@ private:
 
     void make_piece(const Outline& outline, int segment);
     template<class Visit> void each_cell(std::uint32_t piece, Visit&& visit) const;
-    void meet(const Item& item, const glm::dvec3& origin, const glm::dvec3& direction, std::optional<RayHit>& best) const;
+    void meet(const Item& item, const glm::dvec3& origin, const glm::dvec3& direction,
+              std::optional<RayHit>& best) const;
     void finish(RayHit& hit) const;
     [[nodiscard]] std::span<const Item> cell(int x, int y, int z) const;
 

@@ -14,7 +14,14 @@ namespace {
 
 // Streams of the counter-based random numbers; the variant's interior adds kVariantStep * (variant
 // + 1).
-enum Stream : std::uint64_t { kSingle = 1, kTuftCentre, kTuftSize, kTuftBlade, kVariantStep = 64, kSpecies = 90000 };
+enum Stream : std::uint64_t {
+    kSingle = 1,
+    kTuftCentre,
+    kTuftSize,
+    kTuftBlade,
+    kVariantStep = 64,
+    kSpecies = 90000
+};
 
 struct Centre {
     double x, z;
@@ -49,13 +56,17 @@ public:
     }
 
 private:
-    [[nodiscard]] int cell(double v) const { return std::clamp(static_cast<int>(v / side_ * cells_), 0, cells_ - 1); }
+    [[nodiscard]] int cell(double v) const {
+        return std::clamp(static_cast<int>(v / side_ * cells_), 0, cells_ - 1);
+    }
     std::vector<Centre>& bucket(int x, int z) {
-        return buckets_[static_cast<std::size_t>((z + cells_) % cells_ * cells_ + (x + cells_) % cells_)];
+        return buckets_[static_cast<std::size_t>((z + cells_) % cells_ * cells_ +
+                                                 (x + cells_) % cells_)];
     }
     [[nodiscard]] bool any(const std::vector<Centre>& centres, const Centre& c, double disk) const {
         return std::ranges::any_of(centres, [&](const Centre& o) {
-            return std::hypot(wrap_distance(c.x - o.x, side_), wrap_distance(c.z - o.z, side_)) < disk;
+            return std::hypot(wrap_distance(c.x - o.x, side_), wrap_distance(c.z - o.z, side_)) <
+                   disk;
         });
     }
 
@@ -68,16 +79,16 @@ class Scatter {
 public:
     /// `first_id`: of this species' first root.
     Scatter(const Preset& preset, std::size_t species, std::uint64_t first_id)
-        : preset_(preset), species_(preset.species[species]), number_(static_cast<std::uint32_t>(species)),
-          side_(preset.side_m),
+        : preset_(preset), species_(preset.species[species]),
+          number_(static_cast<std::uint32_t>(species)), side_(preset.side_m),
           seed_(base::hash64(static_cast<std::uint64_t>(preset.seed), kSpecies, species)),
           border_(border_width(preset)), next_id_(first_id) {}
 
     /// Appends `total` roots a variant. Returns the first id that is free.
     std::uint64_t run(std::size_t total, Roots& roots) {
         const double per_tuft = (species_.tuft_blades.low + species_.tuft_blades.high) / 2;
-        tufted_ =
-            static_cast<std::size_t>(std::llround(static_cast<double>(total) * species_.tuft_share));
+        tufted_ = static_cast<std::size_t>(
+            std::llround(static_cast<double>(total) * species_.tuft_share));
         tufts_ = static_cast<std::size_t>(std::llround(static_cast<double>(tufted_) / per_tuft));
         if (tufts_ == 0)
             tufted_ = 0;

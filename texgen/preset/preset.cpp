@@ -52,7 +52,8 @@ enum class Scope { kPreset, kSpecies };
 
 /// A key of a species without a section names one species, and so belongs into its entry alone.
 bool stands_in(const Field& field, Scope scope) {
-    return scope == Scope::kSpecies ? field.of_species() : !field.of_species() || !field.section.empty();
+    return scope == Scope::kSpecies ? field.of_species()
+                                    : !field.of_species() || !field.section.empty();
 }
 
 std::string nearest_key(std::string_view section, std::string_view key, Scope scope) {
@@ -131,15 +132,21 @@ struct Reader {
     }
     void put(const Into& into, double Preset::*target) const { into.preset.*target = number(node); }
     void put(const Into& into, Colour Preset::*target) const { into.preset.*target = numbers<3>(); }
-    void put(const Into& into, std::string Species::*target) const { into.species.*target = name(); }
-    void put(const Into& into, double Species::*target) const { into.species.*target = number(node); }
+    void put(const Into& into, std::string Species::*target) const {
+        into.species.*target = name();
+    }
+    void put(const Into& into, double Species::*target) const {
+        into.species.*target = number(node);
+    }
     void put(const Into& into, Range Species::*target) const {
         const auto [low, high] = numbers<2>();
         if (low > high)
             refuse();
         into.species.*target = {low, high};
     }
-    void put(const Into& into, Colour Species::*target) const { into.species.*target = numbers<3>(); }
+    void put(const Into& into, Colour Species::*target) const {
+        into.species.*target = numbers<3>();
+    }
     void read(const Into& into) const {
         std::visit([&](const auto& target) { put(into, target); }, field.target);
     }
@@ -156,8 +163,10 @@ public:
         for (const auto& [key, node] : table) {
             if (key.str() == "species") {
                 kinds = node.as_array();
-                if (!kinds || kinds->empty() || kinds->size() > shared::kMaxSpecies || !kinds->is_array_of_tables())
-                    refuse(line_of(node), "species", kinds ? fmt::format("{} entries", kinds->size()) : shown(node),
+                if (!kinds || kinds->empty() || kinds->size() > shared::kMaxSpecies ||
+                    !kinds->is_array_of_tables())
+                    refuse(line_of(node), "species",
+                           kinds ? fmt::format("{} entries", kinds->size()) : shown(node),
                            fmt::format("1 to {} [[species]] tables", shared::kMaxSpecies));
                 continue;
             }
@@ -174,7 +183,8 @@ private:
         throw base::input_error(ExitCode::kBadInput, file_, line, what, found, expected);
     }
 
-    /// The top level's species keys are every species' defaults; an element brings its own for the head.
+    /// The top level's species keys are every species' defaults; an element brings its own for the
+    /// head.
     void species(const toml::array& kinds) {
         const Species common = preset_.species.front();
         preset_.species.clear();
@@ -188,7 +198,8 @@ private:
                 entry(Scope::kSpecies, one, key, value);
             for (const Species& other : preset_.species)
                 if (other.name == one.name)
-                    refuse(line_of(node), "species.name", one.name + " a second time", "a name of its own");
+                    refuse(line_of(node), "species.name", one.name + " a second time",
+                           "a name of its own");
             preset_.species.push_back(one);
         }
     }
@@ -218,11 +229,13 @@ private:
             value(scope, one, key.str(), inner, item);
     }
 
-    void value(Scope scope, Species& one, std::string_view section, const toml::key& key, const toml::node& node) {
+    void value(Scope scope, Species& one, std::string_view section, const toml::key& key,
+               const toml::node& node) {
         for (const Field& field : preset_fields())
             if (field.section == section && field.key == key.str() && stands_in(field, scope))
                 return Reader{file_, field, node}.read({preset_, one});
-        refuse(static_cast<int>(key.source().begin.line), "unknown key", key.str().empty() ? "\"\"" : base::printable(key.str()),
+        refuse(static_cast<int>(key.source().begin.line), "unknown key",
+               key.str().empty() ? "\"\"" : base::printable(key.str()),
                fmt::format("a key such as {}", nearest_key(section, key.str(), scope)));
     }
 
@@ -235,7 +248,9 @@ private:
 Preset parse_preset(const std::string& text, const fs::path& name) {
     const toml::table table = scene::parse_toml(text, name);
     if (table.empty())
-        base::log_warning(fmt::format("{}: nothing is set in it: this is plain meadow grass at its full size", base::printable(name.string(), 300)));
+        base::log_warning(
+            fmt::format("{}: nothing is set in it: this is plain meadow grass at its full size",
+                        base::printable(name.string(), 300)));
     Preset preset = PresetReader(name).read(table);
     check_preset(preset, name);
     return preset;
@@ -260,8 +275,10 @@ void override_preset(Preset& preset, const std::string& option, const std::strin
 
 fs::path find_preset(const std::string& argument, const std::vector<fs::path>& folders) {
     std::error_code ignored;
-    // A directory that is named like a preset does not hide it; a path to one is refused where it is read.
-    if (fs::exists(argument, ignored) && (argument.find('/') != std::string::npos || !fs::is_directory(argument, ignored)))
+    // A directory that is named like a preset does not hide it; a path to one is refused where it
+    // is read.
+    if (fs::exists(argument, ignored) &&
+        (argument.find('/') != std::string::npos || !fs::is_directory(argument, ignored)))
         return argument;
     std::string known;
     for (const fs::path& folder : folders) {

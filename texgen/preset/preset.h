@@ -21,11 +21,13 @@ inline constexpr int kFarRays = 32768;
 
 using Colour = std::array<double, 3>; ///< linear reflectance, Rec. 709 primaries
 
-/// A kind of plant part as a person writes it (docs/texgen.md). Defaults are the shipped meadow's grass.
+/// A kind of plant part as a person writes it (docs/texgen.md). Defaults are the shipped meadow's
+/// grass.
 struct Species {
     std::string name = "grass";
-    /// What is drawn: "blade" tapers from its root; "seed_head", "leaf" and "flower" are strips with a head on
-    /// a stalk, whose `head_from`, `stalk`, `fullness` and `taper` have other defaults.
+    /// What is drawn: "blade" tapers from its root; "seed_head", "leaf" and "flower" are strips
+    /// with a head on a stalk, whose `head_from`, `stalk`, `fullness` and `taper` have other
+    /// defaults.
     std::string element = "blade";
     double share = 1; ///< weight among the preset's species: its share of the blades
 
@@ -71,9 +73,9 @@ struct Preset {
 
     std::vector<Species> species{Species{}}; ///< at least one, at most shared::kMaxSpecies
 
-    double floor_cover = 0.7;                      ///< share of the soil under moss, short leaves and litter
-    Colour floor_moss{0.050, 0.078, 0.020};        ///< and short leaves
-    Colour floor_litter{0.150, 0.118, 0.058};      ///< thatch, dead leaves
+    double floor_cover = 0.7; ///< share of the soil under moss, short leaves and litter
+    Colour floor_moss{0.050, 0.078, 0.020};   ///< and short leaves
+    Colour floor_litter{0.150, 0.118, 0.058}; ///< thatch, dead leaves
 
     /// Texels a side at level 0, a power of two; a texel should be as wide as a blade.
     std::int64_t size = 512;
@@ -81,9 +83,11 @@ struct Preset {
     std::int64_t slices = 16; ///< vertical slices an axis and patch side at level 0
     std::int64_t levels = 4;  ///< each halves size, layers and slices
 
-    std::int64_t far_rays = kFarRays; ///< of a view of the far table; time grows with them, its noise falls with their root
+    std::int64_t far_rays = kFarRays; ///< of a view of the far table; time grows with them, its
+                                      ///< noise falls with their root
 
-    /// B1: "linear" or "top" (top-weighted): one height map a variant instead of an image a layer. "none" otherwise.
+    /// B1: "linear" or "top" (top-weighted): one height map a variant instead of an image a layer.
+    /// "none" otherwise.
     std::string height_map = "none";
 
     /// False: blades that cross the patch's edge are cut, and the set shows its joints. For tests.

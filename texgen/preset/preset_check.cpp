@@ -27,7 +27,8 @@ double array_bytes(double width, double height, double images) {
     return width * height * images * 4 * 4 / 3;
 }
 
-/// The longest blade, leaning and bending most, as a circular arc: chord L sin(b/2)/(b/2) at the mean angle.
+/// The longest blade, leaning and bending most, as a circular arc: chord L sin(b/2)/(b/2) at the
+/// mean angle.
 double species_reach(const Species& species) {
     constexpr double kRadians = std::numbers::pi / 180;
     const double lean = species.lean_deg.high * kRadians;
@@ -64,9 +65,10 @@ void check_preset(const Preset& preset, const fs::path& origin) {
         const double tip =
             species.lean_deg.high + species.curvature_deg.high + species.droop.high * kDroopDeg;
         if (tip > kMaxTipDeg)
-            refuse(ExitCode::kBadInput, "blade.curvature_deg",
-                   fmt::format("{} degrees at the tip of {}", tip, species.name),
-                   fmt::format("lean + curvature + droop x {} of at most {}", kDroopDeg, kMaxTipDeg));
+            refuse(
+                ExitCode::kBadInput, "blade.curvature_deg",
+                fmt::format("{} degrees at the tip of {}", tip, species.name),
+                fmt::format("lean + curvature + droop x {} of at most {}", kDroopDeg, kMaxTipDeg));
     }
     const double blades = preset.density_per_m2 * preset.side_m * preset.side_m;
     if (!(blades >= 1))
@@ -83,13 +85,17 @@ void check_preset(const Preset& preset, const fs::path& origin) {
                         4 * reach_bound(preset) / (1 - 4 * kMarginShare)));
     for (const Species& species : preset.species)
         if (border_width(preset) + species.tuft_radius_m.high > 0.45 * preset.side_m)
-            refuse(ExitCode::kBadInput, "tufts.radius_m",
-                   fmt::format("{} m in {}", species.tuft_radius_m.high, species.name),
-                   fmt::format("less than {:.2f} m: tufts and the reach of the blades must leave an interior",
-                               0.45 * preset.side_m - border_width(preset)));
+            refuse(
+                ExitCode::kBadInput, "tufts.radius_m",
+                fmt::format("{} m in {}", species.tuft_radius_m.high, species.name),
+                fmt::format(
+                    "less than {:.2f} m: tufts and the reach of the blades must leave an interior",
+                    0.45 * preset.side_m - border_width(preset)));
     const double planes = static_cast<double>(preset.variants * shared::kPlanes);
     const double size = static_cast<double>(preset.size);
-    const double layer_images = planes * static_cast<double>(height_coding(preset) == shared::kHeightNone ? preset.layers : 1);
+    const double layer_images =
+        planes *
+        static_cast<double>(height_coding(preset) == shared::kHeightNone ? preset.layers : 1);
     const double slice_images = planes * 2 * static_cast<double>(preset.slices);
     const double rows = preset.longest_m() / preset.side_m * size + 4;
     const double bytes =
@@ -113,7 +119,8 @@ double border_width(const Preset& preset) {
 }
 
 double Preset::longest_m() const {
-    return std::ranges::max(species, {}, [](const Species& s) { return s.length_m.high; }).length_m.high;
+    return std::ranges::max(species, {}, [](const Species& s) { return s.length_m.high; })
+        .length_m.high;
 }
 
 std::vector<std::size_t> species_counts(const Preset& preset) {
@@ -141,7 +148,8 @@ int height_coding(const Preset& preset) {
 
 shared::GrassAppearance appearance(const Species& species) {
     const auto rgb = [](const Colour& c) {
-        return shared::vec3(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+        return shared::vec3(static_cast<float>(c[0]), static_cast<float>(c[1]),
+                            static_cast<float>(c[2]));
     };
     shared::GrassAppearance look{};
     look.root = rgb(species.root);
@@ -150,10 +158,11 @@ shared::GrassAppearance appearance(const Species& species) {
     look.variation = static_cast<float>(species.variation);
     look.dry = rgb(species.dry);
     look.translucency = static_cast<float>(species.translucency);
-    look.gloss = {static_cast<float>(species.kd), static_cast<float>(species.pd), static_cast<float>(species.ks), static_cast<float>(species.ps)};
+    look.gloss = {static_cast<float>(species.kd), static_cast<float>(species.pd),
+                  static_cast<float>(species.ks), static_cast<float>(species.ps)};
     look.head = rgb(species.head);
-    look.outline = {static_cast<float>(species.taper), static_cast<float>(species.stalk), static_cast<float>(species.head_from),
-                    static_cast<float>(species.fullness)};
+    look.outline = {static_cast<float>(species.taper), static_cast<float>(species.stalk),
+                    static_cast<float>(species.head_from), static_cast<float>(species.fullness)};
     return look;
 }
 

@@ -66,8 +66,12 @@ std::string Field::full_key() const {
 }
 
 std::string Field::expected() const {
-    static constexpr std::string_view kKinds[] = {"text of", "a whole number from", "a number from",
-                                                  "[r, g, b], three numbers from", "text of", "a number from",
+    static constexpr std::string_view kKinds[] = {"text of",
+                                                  "a whole number from",
+                                                  "a number from",
+                                                  "[r, g, b], three numbers from",
+                                                  "text of",
+                                                  "a number from",
                                                   "[low, high], two rising numbers from",
                                                   "[r, g, b], three numbers from"};
     return fmt::format("{} {} to {}{}{}", kKinds[target.index()], low, high,

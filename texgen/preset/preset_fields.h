@@ -12,12 +12,12 @@
 namespace sward::texgen {
 
 /// One key of a preset: where it stands, what it may hold, where it goes. The one list that the
-/// reader, the range checks of the command line and the messages share. A key of a species stands at the preset's
-/// top level, for all species, or in a [[species]] entry, for that one.
+/// reader, the range checks of the command line and the messages share. A key of a species stands
+/// at the preset's top level, for all species, or in a [[species]] entry, for that one.
 struct Field {
-    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*, Colour Preset::*,
-                                std::string Species::*, double Species::*, Range Species::*,
-                                Colour Species::*>;
+    using Target = std::variant<std::string Preset::*, std::int64_t Preset::*, double Preset::*,
+                                Colour Preset::*, std::string Species::*, double Species::*,
+                                Range Species::*, Colour Species::*>;
     std::string_view section; ///< empty: top level of the preset or of the species
     std::string_view key;
     Target target;

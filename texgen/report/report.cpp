@@ -36,12 +36,13 @@ std::string levels_text(const SetReport& r) {
     std::string text;
     for (std::size_t k = 0; k < r.levels.size(); ++k) {
         const LevelReport& level = r.levels[k];
-        text += row(fmt::format("level {}", k),
-                    fmt::format("{} x {} texels of {:.2f} mm, {} layers, {} + {} slices of {} rows, {} mips, {} on "
-                                "the GPU",
-                                level.size, level.size, 1000 * level.texel_m, level.layers,
-                                level.slices, level.slices, level.rows, level.mips,
-                                readable_bytes(level.gpu_bytes)));
+        text += row(
+            fmt::format("level {}", k),
+            fmt::format(
+                "{} x {} texels of {:.2f} mm, {} layers, {} + {} slices of {} rows, {} mips, {} on "
+                "the GPU",
+                level.size, level.size, 1000 * level.texel_m, level.layers, level.slices,
+                level.slices, level.rows, level.mips, readable_bytes(level.gpu_bytes)));
     }
     return text;
 }
@@ -52,11 +53,12 @@ std::string far_text(const SetReport& r) {
         std::string shares;
         for (std::size_t k = 0; k < r.levels.size(); ++k)
             shares += fmt::format(" {:.2f}", far.share_at(static_cast<int>(k)));
-        text += row(text.empty() ? "far" : "",
-                    fmt::format("{:4.1f} degrees: coverage {:>7}, mean height {:.3f}, slices {:.2f}, "
-                                "shells by level{}",
-                                far.elevation_deg, percent(far.coverage), far.height,
-                                far.slice_share, shares));
+        text +=
+            row(text.empty() ? "far" : "",
+                fmt::format("{:4.1f} degrees: coverage {:>7}, mean height {:.3f}, slices {:.2f}, "
+                            "shells by level{}",
+                            far.elevation_deg, percent(far.coverage), far.height, far.slice_share,
+                            shares));
     }
     return text;
 }
@@ -149,7 +151,8 @@ SetReport report_of(const grass::GrassSet& set, const std::string& path,
     for (const FileEntry& file : files)
         r.files.push_back({file.name, file.bytes, 0, file.sha256});
     const auto unpacked = [&](const std::string& name, std::uint64_t bytes) {
-        if (const auto at = std::ranges::find(r.files, name, &FileReport::name); at != r.files.end())
+        if (const auto at = std::ranges::find(r.files, name, &FileReport::name);
+            at != r.files.end())
             at->raw_bytes = bytes;
         return bytes;
     };
@@ -164,14 +167,18 @@ SetReport report_of(const grass::GrassSet& set, const std::string& path,
         if (block)
             bytes += unpacked(grass::layers_shape_file(number), array_bytes(level.layers_shape)) +
                      unpacked(grass::slices_shape_file(number), array_bytes(level.slices_shape));
-        r.levels.push_back({level.layers.width, set.side_m / static_cast<double>(level.layers.width),
-                            level.layer_count, level.slice_count, level.slices.height,
+        r.levels.push_back({level.layers.width,
+                            set.side_m / static_cast<double>(level.layers.width), level.layer_count,
+                            level.slice_count, level.slices.height,
                             static_cast<int>(level.layers.mips.size()), bytes});
         r.gpu_bytes += bytes;
     }
     for (const grass::Species& species : set.species)
-        r.species.push_back(fmt::format("{} ({}) {}", species.name, species.element, percent(species.share)));
-    const auto add_march = [&](const std::string& name, const grass::TextureArray& array) { r.gpu_bytes += unpacked(name, array_bytes(array)); };
+        r.species.push_back(
+            fmt::format("{} ({}) {}", species.name, species.element, percent(species.share)));
+    const auto add_march = [&](const std::string& name, const grass::TextureArray& array) {
+        r.gpu_bytes += unpacked(name, array_bytes(array));
+    };
     add_march(grass::kColumnsFile, set.march.columns.density);
     add_march(grass::kColumnFibresFile, set.march.columns.fibres);
     for (int k = 0; k < shared::kMarchSets; ++k) {
@@ -186,8 +193,8 @@ std::string report_text(const SetReport& r) {
     std::string text = row(r.path.empty() ? "set" : r.path + ":",
                            fmt::format(" grass set \"{}\", format {}, seed {}", r.name,
                                        grass::kSetFormatVersion, r.seed));
-    text += row("patch", fmt::format("{} m, {} variants, {} blades, {:.0f} a square metre", r.side_m,
-                                     r.variants, r.blades, r.density_per_m2));
+    text += row("patch", fmt::format("{} m, {} variants, {} blades, {:.0f} a square metre",
+                                     r.side_m, r.variants, r.blades, r.density_per_m2));
     text += row("canopy", fmt::format("{:.3f} m", r.canopy_m));
     for (std::size_t i = 0; i < r.species.size(); ++i)
         text += row(i == 0 ? "species" : "", r.species[i]);
@@ -200,7 +207,8 @@ std::string report_text(const SetReport& r) {
         disk += file.bytes;
     if (disk)
         text += row("disk", readable_bytes(disk));
-    text += row("GPU", readable_bytes(r.gpu_bytes) + (r.block_compressed ? ", shape planes as BC5" : ""));
+    text += row("GPU",
+                readable_bytes(r.gpu_bytes) + (r.block_compressed ? ", shape planes as BC5" : ""));
     if (r.peak_bytes)
         text += row("memory", fmt::format("about {} at its peak", readable_bytes(*r.peak_bytes)));
     if (r.seconds)
@@ -234,8 +242,9 @@ std::string report_json(const SetReport& r) {
 
 void print_result(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
-        throw base::Error(base::ExitCode::kIo,
-                          "standard output: cannot write: found no room, expected room for the report");
+        throw base::Error(
+            base::ExitCode::kIo,
+            "standard output: cannot write: found no room, expected room for the report");
 }
 
 } // namespace sward::texgen

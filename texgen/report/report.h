@@ -44,9 +44,9 @@ struct SetReport {
     std::vector<LevelReport> levels;
     std::vector<grass::FarRow> far;
     std::vector<FileReport> files;
-    std::uint64_t gpu_bytes = 0;                ///< textures and blades
-    std::optional<std::uint64_t> peak_bytes;    ///< --dry-run: memory that the bake takes
-    std::optional<double> seconds;              ///< a bake's time
+    std::uint64_t gpu_bytes = 0;             ///< textures and blades
+    std::optional<std::uint64_t> peak_bytes; ///< --dry-run: memory that the bake takes
+    std::optional<double> seconds;           ///< a bake's time
 
     [[nodiscard]] std::size_t images() const; ///< of all levels: layers and slices of all variants
 };

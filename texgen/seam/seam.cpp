@@ -18,9 +18,10 @@ struct Lane {
     [[nodiscard]] int count() const { return high - low; }
 };
 
-/// Least-cost path down the rows within a lane, by dynamic programming. `start` >= 0 pins the first row, and the path
-/// ends next to it.
-std::vector<int> least_path(const std::vector<float>& cost, int width, int rows, Lane lane, int start) {
+/// Least-cost path down the rows within a lane, by dynamic programming. `start` >= 0 pins the first
+/// row, and the path ends next to it.
+std::vector<int> least_path(const std::vector<float>& cost, int width, int rows, Lane lane,
+                            int start) {
     const auto n = static_cast<std::size_t>(lane.count());
     constexpr double kNever = std::numeric_limits<double>::infinity();
     std::vector<double> sum(n), next(n);
@@ -37,7 +38,8 @@ std::vector<int> least_path(const std::vector<float>& cost, int width, int rows,
             std::int8_t from = 0;
             for (const int d : {-1, 1}) {
                 const std::ptrdiff_t j = static_cast<std::ptrdiff_t>(i) + d;
-                if (j < 0 || j >= static_cast<std::ptrdiff_t>(n) || !(sum[static_cast<std::size_t>(j)] < best))
+                if (j < 0 || j >= static_cast<std::ptrdiff_t>(n) ||
+                    !(sum[static_cast<std::size_t>(j)] < best))
                     continue;
                 best = sum[static_cast<std::size_t>(j)];
                 from = static_cast<std::int8_t>(d);
@@ -50,7 +52,8 @@ std::vector<int> least_path(const std::vector<float>& cost, int width, int rows,
     std::size_t end = 0;
     double least = kNever;
     for (std::size_t i = 0; i < n; ++i)
-        if ((start < 0 || std::abs(static_cast<int>(i) + lane.low - start) <= 1) && sum[i] < least) {
+        if ((start < 0 || std::abs(static_cast<int>(i) + lane.low - start) <= 1) &&
+            sum[i] < least) {
             least = sum[i];
             end = i;
         }
@@ -63,28 +66,33 @@ std::vector<int> least_path(const std::vector<float>& cost, int width, int rows,
     return path;
 }
 
-std::vector<int> boundary(const std::vector<float>& cost, int width, int rows, Lane lane, bool closed) {
+std::vector<int> boundary(const std::vector<float>& cost, int width, int rows, Lane lane,
+                          bool closed) {
     std::vector<int> path = least_path(cost, width, rows, lane, -1);
     if (!closed)
         return path;
-    // The free path's middle is the place that a closed one most wants to pass: from there the rows are walked round.
+    // The free path's middle is the place that a closed one most wants to pass: from there the rows
+    // are walked round.
     const int middle = rows / 2;
     std::vector<float> turned(cost.size());
-    std::ranges::rotate_copy(cost, cost.begin() + static_cast<std::ptrdiff_t>(middle) * width, turned.begin());
+    std::ranges::rotate_copy(cost, cost.begin() + static_cast<std::ptrdiff_t>(middle) * width,
+                             turned.begin());
     path = least_path(turned, width, rows, lane, path[static_cast<std::size_t>(middle)]);
     std::ranges::rotate(path, path.end() - middle);
     return path;
 }
 
-/// What a column in which the larger wins costs, of the difference there: it holds more than either side does, and a
-/// wide band of it would be seen as one.
+/// What a column in which the larger wins costs, of the difference there: it holds more than either
+/// side does, and a wide band of it would be seen as one.
 constexpr float kLargerCost = 0.02f;
 
-/// Costs of the two boundaries: of changing over at a column, and of the columns that this leaves to the larger.
+/// Costs of the two boundaries: of changing over at a column, and of the columns that this leaves
+/// to the larger.
 OverlapCost with_band(const OverlapCost& cost, int middle) {
     OverlapCost out{cost.width, cost.rows, cost.over, std::vector<float>(cost.under.size())};
     for (int row = 0; row < cost.rows; ++row) {
-        const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(cost.width);
+        const std::size_t first =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(cost.width);
         float band = 0;
         for (int x = middle - 1; x >= 0; --x) {
             const std::size_t i = first + static_cast<std::size_t>(x);
@@ -92,7 +100,8 @@ OverlapCost with_band(const OverlapCost& cost, int middle) {
             out.over[i] += band;
         }
         band = 0;
-        // The column before a change to `under` is the last that may show the cut-off side: its cost stands there.
+        // The column before a change to `under` is the last that may show the cut-off side: its
+        // cost stands there.
         for (int x = middle; x < cost.width; ++x) {
             const std::size_t i = first + static_cast<std::size_t>(x);
             out.under[i] = cost.under[i - 1] + band;
@@ -105,12 +114,14 @@ OverlapCost with_band(const OverlapCost& cost, int middle) {
 } // namespace
 
 std::string JointReport::words() const {
-    return interior > 0 ? fmt::format("{:.2f} times the interior's", ratio()) : fmt::format("{:.3g}, the interior has none", joint);
+    return interior > 0 ? fmt::format("{:.2f} times the interior's", ratio())
+                        : fmt::format("{:.3g}, the interior has none", joint);
 }
 
 Overlap find_overlap(const OverlapCost& cost, bool closed) {
-    // Each has half of the overlap, so that they cannot cross. The outermost columns stay with their side: the joint is
-    // then an interior pair of the picture, and so is the overlap's inner end.
+    // Each has half of the overlap, so that they cannot cross. The outermost columns stay with
+    // their side: the joint is then an interior pair of the picture, and so is the overlap's inner
+    // end.
     const int middle = (cost.width + 1) / 2;
     Overlap out;
     out.width = cost.width;
@@ -122,13 +133,17 @@ Overlap find_overlap(const OverlapCost& cost, bool closed) {
 
 int SeamCut::of(int side, const std::filesystem::path& what) const {
     if (side < 9)
-        throw base::input_error(base::ExitCode::kBadInput, what, 0, "size", fmt::format("{} texels a side", side), "at least 9, to cut a third");
+        throw base::input_error(base::ExitCode::kBadInput, what, 0, "size",
+                                fmt::format("{} texels a side", side),
+                                "at least 9, to cut a third");
     const bool asked = texels > 0 || share != SeamCut{}.share;
-    const int cut = texels > 0 ? texels : std::max(asked ? 0 : 3, static_cast<int>(std::lround(share * side)));
+    const int cut =
+        texels > 0 ? texels : std::max(asked ? 0 : 3, static_cast<int>(std::lround(share * side)));
     if (cut < 3 || side - cut < 2 * cut)
-        throw base::Error(base::ExitCode::kUsage,
-                          fmt::format("--cut: found {} of {}'s {} texels, expected 3 to {}: a third of the side", cut,
-                                      base::printable(what.string(), 300), side, side / 3));
+        throw base::Error(
+            base::ExitCode::kUsage,
+            fmt::format("--cut: found {} of {}'s {} texels, expected 3 to {}: a third of the side",
+                        cut, base::printable(what.string(), 300), side, side / 3));
     return cut;
 }
 

@@ -79,7 +79,8 @@ LayerImage overlay(const LayerImage& image, const Overlap& overlap, bool vertica
     const int kept = from.across() - overlap.width;
     (vertical ? out.height : out.width) = kept;
     const auto channels = static_cast<std::size_t>(image.channels);
-    out.values.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) * channels);
+    out.values.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) *
+                      channels);
     const View to{out, vertical};
     for (int v = 0; v < from.along(); ++v)
         for (int u = 0; u < kept; ++u) {

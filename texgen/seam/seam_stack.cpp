@@ -62,15 +62,18 @@ std::vector<fs::path> in_directory(const fs::path& directory) {
     }
     for (const auto& entry : fs::directory_iterator(directory)) {
         std::string extension = entry.path().extension().string();
-        std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-        if (extension == ".png" || extension == ".tif" || extension == ".tiff" || extension == ".exr")
+        std::ranges::transform(extension, extension.begin(),
+                               [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+        if (extension == ".png" || extension == ".tif" || extension == ".tiff" ||
+            extension == ".exr")
             files.push_back(entry.path());
     }
     std::ranges::sort(files, [](const fs::path& a, const fs::path& b) {
         return natural_before(a.filename().string(), b.filename().string());
     });
     if (files.empty())
-        throw base::input_error(ExitCode::kBadInput, directory, 0, "pictures", "none", "PNG, TIFF or EXR files");
+        throw base::input_error(ExitCode::kBadInput, directory, 0, "pictures", "none",
+                                "PNG, TIFF or EXR files");
     return files;
 }
 
@@ -115,7 +118,8 @@ std::vector<fs::path> by_pattern(const fs::path& input) {
             break;
     }
     if (files.empty())
-        throw base::input_error(ExitCode::kIo, input, 0, "pictures", "none", "files from number 0 to 9999 on");
+        throw base::input_error(ExitCode::kIo, input, 0, "pictures", "none",
+                                "files from number 0 to 9999 on");
     return files;
 }
 
@@ -140,14 +144,16 @@ std::string kind_of(const LayerImage& image) {
 LayerStack read_stack(const fs::path& input) {
     LayerStack stack{files_of(input), {}};
     if (stack.files.size() > kMaxPictures)
-        throw base::input_error(ExitCode::kOverLimit, input, 0, "pictures", std::to_string(stack.files.size()),
+        throw base::input_error(ExitCode::kOverLimit, input, 0, "pictures",
+                                std::to_string(stack.files.size()),
                                 fmt::format("at most {}", kMaxPictures));
     std::uint64_t bytes = 0, file_bytes = 0;
     std::error_code unknown; // reading says what is wrong
     for (const fs::path& file : stack.files)
         if (const std::uintmax_t size = fs::file_size(file, unknown); !unknown)
             file_bytes += size;
-    base::Progress progress("reading pictures", file_bytes > kSoonFileBytes ? stack.files.size() : 0);
+    base::Progress progress("reading pictures",
+                            file_bytes > kSoonFileBytes ? stack.files.size() : 0);
     for (const fs::path& file : stack.files) {
         stack.images.push_back(assets::read_layer_image(file));
         const LayerImage& image = stack.images.back();
@@ -157,9 +163,10 @@ LayerStack read_stack(const fs::path& input) {
                                     kind_of(first) + " as the first of the stack");
         bytes += image.values.size() * sizeof(float);
         if (bytes * stack.files.size() / stack.images.size() > kMaxStackBytes)
-            throw base::input_error(ExitCode::kOverLimit, input, 0, "pictures",
-                                    fmt::format("{} of {}", stack.files.size(), kind_of(first)),
-                                    fmt::format("at most {} values in all", kMaxStackBytes / sizeof(float)));
+            throw base::input_error(
+                ExitCode::kOverLimit, input, 0, "pictures",
+                fmt::format("{} of {}", stack.files.size(), kind_of(first)),
+                fmt::format("at most {} values in all", kMaxStackBytes / sizeof(float)));
         progress.advance();
     }
     return stack;

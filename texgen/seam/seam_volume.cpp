@@ -62,7 +62,9 @@ JointReport joints(std::span<const Cell> cells, const glm::ivec3& size, int u, i
         all.pop_back();
         const double most = all.empty() ? 0 : *std::ranges::max_element(all);
         const double middle = median(std::move(all));
-        const JointReport own{joint, middle > 0 ? middle : most}; // most columns of a few posts have none: a joint like the worst of them is none
+        const JointReport own{joint,
+                              middle > 0 ? middle : most}; // most columns of a few posts have none:
+                                                           // a joint like the worst of them is none
         if (report.interior == 0 || own.ratio() > report.ratio())
             report = own;
     }
@@ -122,7 +124,8 @@ private:
     }
     /// visit(over, under) for every place where either stands.
     template<typename Visit>
-    static void pairs(const std::vector<Cell>& over, const std::vector<Cell>& under, const Visit& visit) {
+    static void pairs(const std::vector<Cell>& over, const std::vector<Cell>& under,
+                      const Visit& visit) {
         auto o = over.begin();
         auto u = under.begin();
         while (o != over.end() || u != under.end()) {
@@ -147,7 +150,9 @@ std::vector<Cell> cells_of(const CellQuery& query) {
     return cells;
 }
 
-int second_axis(int up) { return up == 1 ? 2 : 1; }
+int second_axis(int up) {
+    return up == 1 ? 2 : 1;
+}
 
 } // namespace
 
@@ -200,7 +205,8 @@ Volume seam_volume(const Volume& volume, const SeamCut& cut, const std::filesyst
             to.push_back(from[move.from]);
     };
     for (const CellMove& move : seam.moves)
-        out.at.push_back({static_cast<std::uint16_t>(move.to.x), static_cast<std::uint16_t>(move.to.y),
+        out.at.push_back({static_cast<std::uint16_t>(move.to.x),
+                          static_cast<std::uint16_t>(move.to.y),
                           static_cast<std::uint16_t>(move.to.z)});
     pick(volume.density, out.density);
     pick(volume.tangent, out.tangent);

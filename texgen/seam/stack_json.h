@@ -24,9 +24,11 @@ struct StackDescription {
     std::vector<StackLayer> layers; ///< by rising height
 };
 
-/// DIR/stack.json, or nothing where there is none. Reads what `texgen seam` and `texgen PRESET --export png` write: of several
-/// variants the first, and of slices nothing. Throws base::Error: kBadInput, kOverLimit.
-[[nodiscard]] std::optional<StackDescription> read_stack_json(const std::filesystem::path& directory);
+/// DIR/stack.json, or nothing where there is none. Reads what `texgen seam` and `texgen PRESET
+/// --export png` write: of several variants the first, and of slices nothing. Throws base::Error:
+/// kBadInput, kOverLimit.
+[[nodiscard]] std::optional<StackDescription>
+read_stack_json(const std::filesystem::path& directory);
 
 [[nodiscard]] std::string stack_json_text(const StackDescription& stack);
 

@@ -12,14 +12,16 @@ OutputParents::OutputParents(const fs::path& output) {
     std::error_code error;
     std::vector<fs::path> missing;
     const fs::path whole = fs::absolute(output).lexically_normal();
-    for (fs::path p = whole.parent_path(); p.has_relative_path() && !fs::exists(fs::symlink_status(p, error)); p = p.parent_path())
+    for (fs::path p = whole.parent_path();
+         p.has_relative_path() && !fs::exists(fs::symlink_status(p, error)); p = p.parent_path())
         missing.push_back(p);
     for (const fs::path& p : missing | std::views::reverse) {
         if (fs::create_directory(p, error))
             made_.push_back(p);
         else if (error) {
             take_away();
-            throw base::input_error(base::ExitCode::kIo, output, 0, "cannot write: directory " + base::printable(p.string()),
+            throw base::input_error(base::ExitCode::kIo, output, 0,
+                                    "cannot write: directory " + base::printable(p.string()),
                                     error.message(), "a directory, or a place to make it");
         }
     }

@@ -8,8 +8,9 @@
 
 namespace sward::texgen {
 
-/// Makes the directories above an output that are missing. Those of them that are still empty when it ends go again, so that a
-/// run that fails leaves nothing. Throws base::Error(kIo) that names the output.
+/// Makes the directories above an output that are missing. Those of them that are still empty when
+/// it ends go again, so that a run that fails leaves nothing. Throws base::Error(kIo) that names
+/// the output.
 class OutputParents {
 public:
     explicit OutputParents(const std::filesystem::path& output);
@@ -23,6 +24,7 @@ private:
 };
 
 /// Throws `error` again with the name that the user asked for where it names the temporary.
-[[noreturn]] void throw_for_place(const base::Error& error, const std::filesystem::path& temporary, const std::filesystem::path& output);
+[[noreturn]] void throw_for_place(const base::Error& error, const std::filesystem::path& temporary,
+                                  const std::filesystem::path& output);
 
 } // namespace sward::texgen

@@ -28,7 +28,8 @@ void parallel_for(std::size_t count, int threads,
                 first = std::current_exception();
         }
     };
-    // Threads of our own: TBB's workers end the program where the system has none left. Here fewer do the work then.
+    // Threads of our own: TBB's workers end the program where the system has none left. Here fewer
+    // do the work then.
     std::vector<std::jthread> others;
     try {
         for (int worker = 1; worker < workers; ++worker)

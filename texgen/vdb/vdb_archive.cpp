@@ -44,7 +44,8 @@ private:
 
 void label(openvdb::GridBase& grid, const Volume& volume) {
     const auto transform = openvdb::math::Transform::createLinearTransform(volume.voxel_m);
-    transform->postTranslate(openvdb::Vec3d(volume.voxel_m / 2)); // a voxel's value stands at its middle
+    transform->postTranslate(
+        openvdb::Vec3d(volume.voxel_m / 2)); // a voxel's value stands at its middle
     grid.setTransform(transform);
     grid.setSaveFloatAsHalf(true);
     grid.setCreator("Sward texgen");
@@ -54,7 +55,8 @@ void label(openvdb::GridBase& grid, const Volume& volume) {
     grid.insertMeta("format_version", openvdb::Int32Metadata(volume.format_version));
 }
 
-openvdb::GridBase::Ptr scalar_grid(const char* name, const Volume& volume, const std::vector<float>& values) {
+openvdb::GridBase::Ptr scalar_grid(const char* name, const Volume& volume,
+                                   const std::vector<float>& values) {
     const auto grid = openvdb::FloatGrid::create(0);
     auto out = grid->getAccessor();
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -64,8 +66,8 @@ openvdb::GridBase::Ptr scalar_grid(const char* name, const Volume& volume, const
     return grid;
 }
 
-openvdb::GridBase::Ptr vector_grid(const char* name, const Volume& volume, const std::vector<glm::vec3>& values,
-                                   openvdb::VecType type) {
+openvdb::GridBase::Ptr vector_grid(const char* name, const Volume& volume,
+                                   const std::vector<glm::vec3>& values, openvdb::VecType type) {
     const auto grid = openvdb::Vec3SGrid::create(openvdb::Vec3f(0));
     auto out = grid->getAccessor();
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -77,8 +79,9 @@ openvdb::GridBase::Ptr vector_grid(const char* name, const Volume& volume, const
     return grid;
 }
 
-/// The file's bytes, with the offsets that let tools read grid by grid (io::Stream leaves them out, io::File writes
-/// past full disks). The random tag in the header becomes one of the content: equal grids give equal bytes.
+/// The file's bytes, with the offsets that let tools read grid by grid (io::Stream leaves them out,
+/// io::File writes past full disks). The random tag in the header becomes one of the content: equal
+/// grids give equal bytes.
 std::vector<std::byte> encode_grids(const openvdb::GridPtrVec& grids) {
     // OpenVDB counts with TBB, whose threads end the program where the system has none left.
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
@@ -125,7 +128,8 @@ void copy_meta(const SparseGrid& from, openvdb::GridBase& to) {
 
 /// A grid of the voxels that `moves` brings.
 template<typename Grid, typename Value>
-openvdb::GridBase::Ptr moved_grid(const SparseGrid& from, std::span<const VdbMove> moves, const Value& value_of) {
+openvdb::GridBase::Ptr moved_grid(const SparseGrid& from, std::span<const VdbMove> moves,
+                                  const Value& value_of) {
     const auto grid = Grid::create(value_of(from.background.data()));
     auto to = grid->getAccessor();
     std::size_t hint = 0;
@@ -143,7 +147,8 @@ std::vector<std::byte> encode_vdb(const Volume& volume) {
     grids.front()->setGridClass(openvdb::GRID_FOG_VOLUME);
     // A direction turns with the object; a colour does not.
     if (!volume.tangent.empty())
-        grids.push_back(vector_grid("tangent", volume, volume.tangent, openvdb::VEC_CONTRAVARIANT_RELATIVE));
+        grids.push_back(
+            vector_grid("tangent", volume, volume.tangent, openvdb::VEC_CONTRAVARIANT_RELATIVE));
     if (!volume.colour.empty())
         grids.push_back(vector_grid("colour", volume, volume.colour, openvdb::VEC_INVARIANT));
     if (!volume.rank.empty())
@@ -159,16 +164,21 @@ struct VdbBuilder::State {
     openvdb::GridPtrVec grids;
 };
 
-VdbBuilder::VdbBuilder() : state_(std::make_unique<State>()) { openvdb::initialize(); }
+VdbBuilder::VdbBuilder() : state_(std::make_unique<State>()) {
+    openvdb::initialize();
+}
 VdbBuilder::~VdbBuilder() = default;
 
 void VdbBuilder::add_moved(const SparseGrid& from, std::span<const VdbMove> moves, double period) {
-    // What is below 0 by rounding is written as 0: a reader would have to ask what a negative density means.
+    // What is below 0 by rounding is written as 0: a reader would have to ask what a negative
+    // density means.
     const bool fog = from.name == "density";
     const openvdb::GridBase::Ptr grid =
         from.components == 1
-            ? moved_grid<openvdb::FloatGrid>(from, moves, [fog](const float* v) { return fog ? std::max(*v, 0.0f) : *v; })
-            : moved_grid<openvdb::Vec3SGrid>(from, moves, [](const float* v) { return openvdb::Vec3f(v[0], v[1], v[2]); });
+            ? moved_grid<openvdb::FloatGrid>(
+                  from, moves, [fog](const float* v) { return fog ? std::max(*v, 0.0f) : *v; })
+            : moved_grid<openvdb::Vec3SGrid>(
+                  from, moves, [](const float* v) { return openvdb::Vec3f(v[0], v[1], v[2]); });
     copy_meta(from, *grid);
     grid->setName(from.name);
     grid->setTransform(transform_of(from.transform));

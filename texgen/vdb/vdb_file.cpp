@@ -20,7 +20,9 @@ namespace {
 
 constexpr float kLeastDensity = 1e-12f; // denormals and the like
 
-bool is_rounded_zero(float v) { return v != 0 && v < kLeastDensity; }
+bool is_rounded_zero(float v) {
+    return v != 0 && v < kLeastDensity;
+}
 
 /// Index to world of a grid that only scales (alike on all axes) and shifts.
 struct Placement {
@@ -57,12 +59,14 @@ void check_density(const VdbReader& reader, const SparseGrid& grid) {
     std::size_t rounded = 0;
     grid.for_active([&](const glm::ivec3& at, const float* v) {
         if (!std::isfinite(*v) || *v < -kRoundedBelow * most)
-            reader.refuse(shown(grid) + ": voxel " + printed(at), fmt::format("{}", *v), "0 or more (a level set?)");
+            reader.refuse(shown(grid) + ": voxel " + printed(at), fmt::format("{}", *v),
+                          "0 or more (a level set?)");
         rounded += is_rounded_zero(*v) ? 1 : 0;
     });
     if (rounded > 0)
-        base::log_warning(fmt::format("{}: {}: {} voxels of a tiny or slightly negative density are taken as 0",
-                                      reader.file(), shown(grid), rounded));
+        base::log_warning(
+            fmt::format("{}: {}: {} voxels of a tiny or slightly negative density are taken as 0",
+                        reader.file(), shown(grid), rounded));
 }
 
 /// A voxel of the density on its way to its order.
@@ -72,8 +76,12 @@ struct Found {
 };
 
 /// The file's axes to ours: z up becomes y up by a quarter turn about x.
-glm::ivec3 turned(glm::ivec3 v, bool z_up) { return z_up ? glm::ivec3(v.x, v.z, -v.y) : v; }
-glm::ivec3 turned_back(glm::ivec3 v, bool z_up) { return z_up ? glm::ivec3(v.x, -v.z, v.y) : v; }
+glm::ivec3 turned(glm::ivec3 v, bool z_up) {
+    return z_up ? glm::ivec3(v.x, v.z, -v.y) : v;
+}
+glm::ivec3 turned_back(glm::ivec3 v, bool z_up) {
+    return z_up ? glm::ivec3(v.x, -v.z, v.y) : v;
+}
 
 /// The steps of read_volume.
 class VolumeReading {
@@ -176,18 +184,22 @@ private:
             whole < std::max(out_.cells.x, out_.cells.z)) {
             if (query_.period_m > 0)
                 throw base::Error(base::ExitCode::kUsage,
-                                  fmt::format("--period: found {} m, expected a whole number of the volume's voxels of {:.6g} m: {} to {}",
-                                              query_.period_m, out_.voxel_m, std::max(out_.cells.x, out_.cells.z), kMaxVdbSide));
+                                  fmt::format("--period: found {} m, expected a whole number of "
+                                              "the volume's voxels of {:.6g} m: {} to {}",
+                                              query_.period_m, out_.voxel_m,
+                                              std::max(out_.cells.x, out_.cells.z), kMaxVdbSide));
             if (out_.period_m != 0)
-                base::log_warning(fmt::format("{} {} is not a whole number of voxels that holds the volume: "
-                                              "it is not used",
-                                              kPeriodKey, out_.period_m));
+                base::log_warning(
+                    fmt::format("{} {} is not a whole number of voxels that holds the volume: "
+                                "it is not used",
+                                kPeriodKey, out_.period_m));
             out_.period_m = 0;
             return;
         }
         // A volume that lies inside its period keeps its place.
         const glm::ivec3 high = low_ + out_.cells;
-        shift_ = glm::ivec3(low_.x >= 0 && high.x <= whole ? low_.x : 0, 0, low_.z >= 0 && high.z <= whole ? low_.z : 0);
+        shift_ = glm::ivec3(low_.x >= 0 && high.x <= whole ? low_.x : 0, 0,
+                            low_.z >= 0 && high.z <= whole ? low_.z : 0);
         out_.cells = {whole, out_.cells.y, whole};
     }
 
@@ -203,7 +215,8 @@ private:
         low_ -= shift_;
     }
 
-    /// take(i, value) with the grid's value at every voxel of the density: the nearest where their voxels differ.
+    /// take(i, value) with the grid's value at every voxel of the density: the nearest where their
+    /// voxels differ.
     template<typename Take> void sample(int index, int components, const Take& take) {
         const SparseGrid grid = reader_.load(index);
         if (grid.components != components)
@@ -216,7 +229,8 @@ private:
             const VoxelPlace& p = out_.at[i];
             glm::ivec3 c = turned_back(glm::ivec3(p.x, p.y, p.z) + low_, query_.z_up);
             if (!same) {
-                const glm::dvec3 there = (placement_.voxel * glm::dvec3(c) + placement_.origin - own.origin) / own.voxel;
+                const glm::dvec3 there =
+                    (placement_.voxel * glm::dvec3(c) + placement_.origin - own.origin) / own.voxel;
                 c = glm::ivec3(glm::round(glm::clamp(there, -1e9, 1e9)));
             }
             const float* value = grid.at(c, hint).at;
@@ -230,7 +244,9 @@ private:
         for (const char* name : names)
             if (const int index = reader_.find(name); index >= 0) {
                 out.resize(out_.at.size());
-                return sample(index, 3, [&](std::size_t i, const float* v) { out[i] = {v[0], v[1], v[2]}; });
+                return sample(index, 3, [&](std::size_t i, const float* v) {
+                    out[i] = {v[0], v[1], v[2]};
+                });
             }
     }
     void read_scalars(const char* name, std::vector<float>& out) {
@@ -249,9 +265,11 @@ private:
 };
 
 /// The voxels of `grid` that `key` has not, into `others`.
-void note_others(const VdbReader& reader, const SparseGrid& grid, const SparseGrid& key, std::vector<glm::ivec3>& others) {
+void note_others(const VdbReader& reader, const SparseGrid& grid, const SparseGrid& key,
+                 std::vector<glm::ivec3>& others) {
     if (!grid.transform.near(key.transform))
-        reader.refuse(shown(grid) + ": transform", "another than " + base::printable(key.name), "the same voxels: resample the volume");
+        reader.refuse(shown(grid) + ": transform", "another than " + base::printable(key.name),
+                      "the same voxels: resample the volume");
     if (grid.is_level_set())
         reader.refuse(shown(grid), "a level set (distances)", "a fog volume");
     std::size_t hint = 0;
@@ -279,7 +297,8 @@ std::vector<std::byte> read_vdb_file(const std::filesystem::path& path) {
     // A large file of another kind is told by its first bytes.
     const std::vector<std::byte> head = base::read_head(path, 8);
     if (head.size() < 8 || std::memcmp(head.data(), " BDV\0\0\0\0", 8) != 0)
-        throw base::input_error(base::ExitCode::kBadInput, path, 0, "format", "something else", "an OpenVDB file");
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "format", "something else",
+                                "an OpenVDB file");
     return base::read_file(path, kMaxVdbBytes);
 }
 
@@ -292,7 +311,8 @@ VdbFile::~VdbFile() = default;
 
 void VdbFile::check_grids() const {
     for (std::size_t i = 0; i < reader_->table().size(); ++i)
-        if (const VdbEntry& entry = reader_->table()[i]; !entry.instance && (entry.is_scalar() || entry.is_vector()))
+        if (const VdbEntry& entry = reader_->table()[i];
+            !entry.instance && (entry.is_scalar() || entry.is_vector()))
             (void)reader_->load(static_cast<int>(i));
 }
 
@@ -341,7 +361,9 @@ std::vector<std::byte> VdbFile::moved(std::span<const VdbMove> moves, double per
         if (entry.is_scalar() || entry.is_vector())
             builder.add_moved(reader_->load(static_cast<int>(i)), moves, period);
         else
-            base::log_warning(fmt::format("grid {} of type {} is left out", base::printable(entry.name), base::printable(entry.type)));
+            base::log_warning(fmt::format("grid {} of type {} is left out",
+                                          base::printable(entry.name),
+                                          base::printable(entry.type)));
     }
     return builder.bytes();
 }

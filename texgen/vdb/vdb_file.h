@@ -17,7 +17,7 @@ namespace sward::texgen {
 
 /// Limits of a volume (docs/limits.md).
 inline constexpr int kMaxVdbGrids = 64;
-inline constexpr int kMaxVdbSide = 4096;                              // voxels
+inline constexpr int kMaxVdbSide = 4096;                               // voxels
 inline constexpr std::uint64_t kMaxVdbVoxels = std::uint64_t{1} << 28; // active, a grid
 inline constexpr std::uint64_t kMaxVdbBytes = std::uint64_t{1} << 32;
 
@@ -28,13 +28,14 @@ struct VdbGridInfo {
 
 inline constexpr const char* kPeriodKey = "period_m"; ///< metadata of a grid, in its units
 
-/// The bytes of an OpenVDB file; by its first ones before the rest is read. Throws base::Error: kIo, kBadInput, kOverLimit.
+/// The bytes of an OpenVDB file; by its first ones before the rest is read. Throws base::Error:
+/// kIo, kBadInput, kOverLimit.
 [[nodiscard]] std::vector<std::byte> read_vdb_file(const std::filesystem::path& path);
 
 /// How a volume is taken from a file.
 struct VolumeQuery {
-    bool z_up = false;     ///< the file's z is up (Blender); else its y
-    double scale = 1;      ///< metres a unit of the file
+    bool z_up = false;      ///< the file's z is up (Blender); else its y
+    double scale = 1;       ///< metres a unit of the file
     double period_m = 0;    ///< instead of the metadata's, when above 0
     bool companions = true; ///< tangent, colour, rank and seed beside the density
 };
@@ -55,8 +56,8 @@ struct VdbMove {
 
 class VdbReader;
 
-/// An OpenVDB file in memory, read grid by grid and by us: the library trusts what it reads. Throws base::Error: kBadInput,
-/// kOverLimit.
+/// An OpenVDB file in memory, read grid by grid and by us: the library trusts what it reads. Throws
+/// base::Error: kBadInput, kOverLimit.
 class VdbFile {
 public:
     VdbFile(std::span<const std::byte> bytes, std::filesystem::path name);
@@ -69,17 +70,18 @@ public:
     /// Reads every float and vec3 grid to its end and keeps none: throws where one is damaged.
     void check_grids() const;
 
-    /// The fog volume `density` and what stands beside it, `color` or `Cd` for `colour`. Voxels of density 0 are left out, and
-    /// with a warning those that are not 0 by rounding alone. Refuses level sets, values below that, non-finite ones, and
-    /// transforms other than a scale and a shift. kUsage where `period_m` does not fit.
+    /// The fog volume `density` and what stands beside it, `color` or `Cd` for `colour`. Voxels of
+    /// density 0 are left out, and with a warning those that are not 0 by rounding alone. Refuses
+    /// level sets, values below that, non-finite ones, and transforms other than a scale and a
+    /// shift. kUsage where `period_m` does not fit.
     [[nodiscard]] Volume read_volume(const VolumeQuery& query) const;
 
-    /// The active voxels of all float and vec3 grids, by rising x, y, z. Refuses level sets, and grids whose voxels do
-    /// not lie on each other.
+    /// The active voxels of all float and vec3 grids, by rising x, y, z. Refuses level sets, and
+    /// grids whose voxels do not lie on each other.
     [[nodiscard]] VdbCells read_cells() const;
 
-    /// A file of the same float and vec3 grids whose voxels have moved; others are left out with a warning. Every grid
-    /// gets `period_m`.
+    /// A file of the same float and vec3 grids whose voxels have moved; others are left out with a
+    /// warning. Every grid gets `period_m`.
     [[nodiscard]] std::vector<std::byte> moved(std::span<const VdbMove> moves, double period) const;
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A grid of an OpenVDB file as plain arrays: what our own reader makes, so that the library, which takes files on trust,
-// reads none.
+// A grid of an OpenVDB file as plain arrays: what our own reader makes, so that the library, which
+// takes files on trust, reads none.
 #pragma once
 
 #include <algorithm>
@@ -25,7 +25,9 @@ struct VdbMeta {
 /// Index to world of an affine map: world = (i, j, k, 1) * m, row by row.
 struct VdbTransform {
     std::array<double, 16> m{};
-    [[nodiscard]] double at(int row, int column) const { return m[static_cast<std::size_t>(4 * row + column)]; }
+    [[nodiscard]] double at(int row, int column) const {
+        return m[static_cast<std::size_t>(4 * row + column)];
+    }
     /// Length of a voxel's edge along axis `i` of the index space.
     [[nodiscard]] double voxel(int i) const {
         return std::sqrt(at(i, 0) * at(i, 0) + at(i, 1) * at(i, 1) + at(i, 2) * at(i, 2));
@@ -40,9 +42,11 @@ class SparseGrid {
 public:
     static constexpr int kLeafSide = 8, kLeafVoxels = 512;
     struct Leaf {
-        glm::ivec3 origin{0};                ///< a multiple of 8
-        std::array<std::uint64_t, 8> on{};   ///< active voxels; bit (x * 8 + y) * 8 + z
-        [[nodiscard]] bool is_on(int bit) const { return on[static_cast<std::size_t>(bit) / 64] >> (bit % 64) & 1; }
+        glm::ivec3 origin{0};              ///< a multiple of 8
+        std::array<std::uint64_t, 8> on{}; ///< active voxels; bit (x * 8 + y) * 8 + z
+        [[nodiscard]] bool is_on(int bit) const {
+            return on[static_cast<std::size_t>(bit) / 64] >> (bit % 64) & 1;
+        }
     };
     /// A cube of one value.
     struct Tile {
@@ -65,7 +69,8 @@ public:
     /// Sorts leaves' and tiles' places for at(). False where two stand in one place.
     [[nodiscard]] bool index();
 
-    /// The value at a voxel, and whether it is active. `hint`: any number, better the one that the call before left.
+    /// The value at a voxel, and whether it is active. `hint`: any number, better the one that the
+    /// call before left.
     struct Value {
         const float* at = nullptr;
         bool active = false;
@@ -74,7 +79,8 @@ public:
 
     [[nodiscard]] const VdbMeta* find_meta(const char* key, const char* type) const;
     /// A number of the metadata; false where there is none of that name and type.
-    template<typename T> [[nodiscard]] bool read_meta(const char* key, const char* type, T& out) const;
+    template<typename T>
+    [[nodiscard]] bool read_meta(const char* key, const char* type, T& out) const;
     [[nodiscard]] std::string text_meta(const char* key) const;
     [[nodiscard]] bool is_level_set() const { return text_meta("class") == "level set"; }
 
@@ -84,7 +90,8 @@ public:
             for (std::size_t word = 0; word < 8; ++word)
                 for (std::uint64_t bits = leaves[i].on[word]; bits != 0; bits &= bits - 1) {
                     const int bit = static_cast<int>(word) * 64 + std::countr_zero(bits);
-                    visit(leaves[i].origin + glm::ivec3(bit >> 6, bit >> 3 & 7, bit & 7), value_of(i, bit));
+                    visit(leaves[i].origin + glm::ivec3(bit >> 6, bit >> 3 & 7, bit & 7),
+                          value_of(i, bit));
                 }
         for (const Tile& tile : tiles)
             for (int x = 0; tile.active && x < tile.side; ++x)
@@ -95,7 +102,8 @@ public:
 
 private:
     [[nodiscard]] const float* value_of(std::size_t leaf, int bit) const {
-        return &values[(leaf * kLeafVoxels + static_cast<std::size_t>(bit)) * static_cast<std::size_t>(components)];
+        return &values[(leaf * kLeafVoxels + static_cast<std::size_t>(bit)) *
+                       static_cast<std::size_t>(components)];
     }
     std::vector<std::uint32_t> leaf_order_, tile_order_; ///< by place
 };

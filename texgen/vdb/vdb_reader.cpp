@@ -18,9 +18,12 @@ constexpr std::uint64_t kUuidBytes = 36;
 constexpr std::uint32_t kMaxMeta = 65536;
 constexpr char kNameMark = '\x1e'; // before the number of a second grid of the name
 constexpr std::string_view kHalfMark = "_HalfFloat";
-constexpr double kLeastVolume = 3e-15; // of a voxel: below it OpenVDB itself takes a transform for singular
+constexpr double kLeastVolume =
+    3e-15; // of a voxel: below it OpenVDB itself takes a transform for singular
 
-std::string shown(const VdbEntry& entry) { return "grid " + base::printable(entry.name.substr(0, entry.name.find(kNameMark))); }
+std::string shown(const VdbEntry& entry) {
+    return "grid " + base::printable(entry.name.substr(0, entry.name.find(kNameMark)));
+}
 
 VdbTransform scaled(const std::array<double, 3>& scale, const std::array<double, 3>& shift) {
     VdbTransform t;
@@ -34,23 +37,28 @@ VdbTransform scaled(const std::array<double, 3>& scale, const std::array<double,
 
 } // namespace
 
-void VdbCursor::refuse(const std::string& what, const std::string& found, const std::string& expected) const {
+void VdbCursor::refuse(const std::string& what, const std::string& found,
+                       const std::string& expected) const {
     throw base::input_error(base::ExitCode::kBadInput, name_, 0, what, found, expected);
 }
-void VdbCursor::over(const std::string& what, const std::string& found, const std::string& expected) const {
+void VdbCursor::over(const std::string& what, const std::string& found,
+                     const std::string& expected) const {
     throw base::input_error(base::ExitCode::kOverLimit, name_, 0, what, found, expected);
 }
 
 void VdbCursor::seek(std::uint64_t place) {
     if (place > bytes_.size())
-        refuse("content", fmt::format("a place at byte {} of {}", place, bytes_.size()), "a whole OpenVDB file");
+        refuse("content", fmt::format("a place at byte {} of {}", place, bytes_.size()),
+               "a whole OpenVDB file");
     at_ = place;
 }
 
 std::span<const std::byte> VdbCursor::take(std::uint64_t count) {
     if (count > left())
-        refuse("content", fmt::format("{} bytes at byte {} of {}", count, at_, bytes_.size()), "a whole OpenVDB file");
-    const std::span<const std::byte> out = bytes_.subspan(static_cast<std::size_t>(at_), static_cast<std::size_t>(count));
+        refuse("content", fmt::format("{} bytes at byte {} of {}", count, at_, bytes_.size()),
+               "a whole OpenVDB file");
+    const std::span<const std::byte> out =
+        bytes_.subspan(static_cast<std::size_t>(at_), static_cast<std::size_t>(count));
     at_ += count;
     return out;
 }
@@ -60,7 +68,8 @@ std::string VdbCursor::text() {
     return {reinterpret_cast<const char*>(letters.data()), letters.size()};
 }
 
-VdbReader::VdbReader(std::span<const std::byte> bytes, std::filesystem::path name) : cursor_(bytes, std::move(name)) {
+VdbReader::VdbReader(std::span<const std::byte> bytes, std::filesystem::path name)
+    : cursor_(bytes, std::move(name)) {
     if (bytes.size() < sizeof kMagic || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0)
         refuse("format", "something else", "an OpenVDB file");
     cursor_.seek(sizeof kMagic);
@@ -71,7 +80,8 @@ VdbReader::VdbReader(std::span<const std::byte> bytes, std::filesystem::path nam
 void VdbReader::parse_header() {
     const auto version = cursor_.number<std::uint32_t>();
     if (version < kOldestVersion)
-        refuse("file version", std::to_string(version), fmt::format("{} or later: save it with OpenVDB 2 or later", kOldestVersion));
+        refuse("file version", std::to_string(version),
+               fmt::format("{} or later: save it with OpenVDB 2 or later", kOldestVersion));
     (void)cursor_.take(8); // the library's version
     if (cursor_.number<std::uint8_t>() == 0)
         refuse("header", "a stream without offsets", "a file that OpenVDB's io::File wrote");
@@ -97,8 +107,11 @@ void VdbReader::parse_table() {
         entry.grid_at = cursor_.number<std::uint64_t>();
         entry.block_at = cursor_.number<std::uint64_t>();
         entry.end_at = cursor_.number<std::uint64_t>();
-        if (entry.grid_at < cursor_.at() || entry.block_at < entry.grid_at || entry.end_at < entry.block_at)
-            refuse(shown(entry) + ": offsets", fmt::format("{}, {}, {}", entry.grid_at, entry.block_at, entry.end_at), "rising numbers");
+        if (entry.grid_at < cursor_.at() || entry.block_at < entry.grid_at ||
+            entry.end_at < entry.block_at)
+            refuse(shown(entry) + ": offsets",
+                   fmt::format("{}, {}, {}", entry.grid_at, entry.block_at, entry.end_at),
+                   "rising numbers");
         cursor_.seek(entry.end_at);
         table_.push_back(std::move(entry));
     }
@@ -128,9 +141,12 @@ std::vector<VdbMeta> VdbReader::read_meta() {
 VdbTransform VdbReader::read_map(const std::string& grid) {
     const std::string type = cursor_.text();
     const auto three = [&] {
-        return std::array{cursor_.number<double>(), cursor_.number<double>(), cursor_.number<double>()};
+        return std::array{cursor_.number<double>(), cursor_.number<double>(),
+                          cursor_.number<double>()};
     };
-    const auto skip = [&](int vectors) { (void)cursor_.take(static_cast<std::uint64_t>(vectors) * 24); }; // what follows from the scale
+    const auto skip = [&](int vectors) {
+        (void)cursor_.take(static_cast<std::uint64_t>(vectors) * 24);
+    }; // what follows from the scale
     if (type == "UniformScaleMap" || type == "ScaleMap") {
         const auto scale = three();
         skip(4);
@@ -145,7 +161,9 @@ VdbTransform VdbReader::read_map(const std::string& grid) {
     if (type == "TranslationMap")
         return scaled({1, 1, 1}, three());
     if (type != "AffineMap" && type != "UnitaryMap")
-        refuse(grid + ": transform", type == "NonlinearFrustumMap" ? "a frustum" : base::printable(type), "a scale and a shift");
+        refuse(grid + ": transform",
+               type == "NonlinearFrustumMap" ? "a frustum" : base::printable(type),
+               "a scale and a shift");
     VdbTransform t;
     for (double& v : t.m)
         v = cursor_.number<double>();
@@ -158,7 +176,10 @@ VdbTransform VdbReader::read_transform(const std::string& grid) {
     for (const double v : t.m)
         finite &= std::isfinite(v) && std::abs(v) < 1e18;
     if (!finite || !(std::abs(t.determinant()) >= kLeastVolume))
-        refuse(grid + ": transform", finite ? fmt::format("voxels of {} x {} x {}, nearly flat", t.voxel(0), t.voxel(1), t.voxel(2)) : "no finite number",
+        refuse(grid + ": transform",
+               finite ? fmt::format("voxels of {} x {} x {}, nearly flat", t.voxel(0), t.voxel(1),
+                                    t.voxel(2))
+                      : "no finite number",
                "voxels with a volume, 0.00002 units wide or more");
     return t;
 }
@@ -167,7 +188,8 @@ SparseGrid VdbReader::load(int index) {
     const VdbEntry& entry = table_[static_cast<std::size_t>(index)];
     const std::string name = shown(entry);
     if (entry.instance)
-        refuse(name, "an instance of another grid's tree", "a tree of its own: save without instancing");
+        refuse(name, "an instance of another grid's tree",
+               "a tree of its own: save without instancing");
     if (!entry.is_scalar() && !entry.is_vector())
         refuse(name, base::printable(entry.type), "single floats or vectors of three");
     SparseGrid grid;
@@ -177,11 +199,14 @@ SparseGrid VdbReader::load(int index) {
     cursor_.seek(entry.grid_at);
     const auto packing = cursor_.number<std::uint32_t>();
     grid.meta = read_meta();
-    std::erase_if(grid.meta, [](const VdbMeta& m) { return m.name.starts_with("file_"); }); // of that very file
+    std::erase_if(grid.meta, [](const VdbMeta& m) {
+        return m.name.starts_with("file_");
+    }); // of that very file
     grid.transform = read_transform(name);
     read_vdb_tree(cursor_, entry.block_at, packing, grid);
     if (cursor_.at() != entry.end_at)
-        refuse(name, fmt::format("values that end at byte {}", cursor_.at()), fmt::format("byte {}, as the table of grids says", entry.end_at));
+        refuse(name, fmt::format("values that end at byte {}", cursor_.at()),
+               fmt::format("byte {}, as the table of grids says", entry.end_at));
     return grid;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of an OpenVDB file, read by us: every length, count and offset is held against what is left of the file, and
-// against the limits, before anything is taken or unpacked.
+// The bytes of an OpenVDB file, read by us: every length, count and offset is held against what is
+// left of the file, and against the limits, before anything is taken or unpacked.
 #pragma once
 
 #include <cstring>
@@ -16,7 +16,8 @@ namespace sward::texgen {
 /// A place in the file. Reads past the end throw base::Error(kBadInput) that names it.
 class VdbCursor {
 public:
-    VdbCursor(std::span<const std::byte> bytes, std::filesystem::path name) : name_(std::move(name)), bytes_(bytes) {}
+    VdbCursor(std::span<const std::byte> bytes, std::filesystem::path name)
+        : name_(std::move(name)), bytes_(bytes) {}
 
     [[nodiscard]] std::uint64_t at() const { return at_; }
     [[nodiscard]] std::uint64_t left() const { return bytes_.size() - at_; }
@@ -31,8 +32,10 @@ public:
     /// 32 bits of length and the text.
     [[nodiscard]] std::string text();
 
-    [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) const;
-    [[noreturn]] void over(const std::string& what, const std::string& found, const std::string& expected) const;
+    [[noreturn]] void refuse(const std::string& what, const std::string& found,
+                             const std::string& expected) const;
+    [[noreturn]] void over(const std::string& what, const std::string& found,
+                           const std::string& expected) const;
 
 private:
     std::filesystem::path name_;
@@ -61,11 +64,13 @@ public:
     /// Of the grid of that name, or -1.
     [[nodiscard]] int find(const std::string& name) const;
 
-    /// Grid `index` with its voxels. Refuses other types than floats and vectors of three, and instances.
+    /// Grid `index` with its voxels. Refuses other types than floats and vectors of three, and
+    /// instances.
     [[nodiscard]] SparseGrid load(int index);
 
     [[nodiscard]] std::string file() const { return cursor_.name().string(); }
-    [[noreturn]] void refuse(const std::string& what, const std::string& found, const std::string& expected) const {
+    [[noreturn]] void refuse(const std::string& what, const std::string& found,
+                             const std::string& expected) const {
         cursor_.refuse(what, found, expected);
     }
 
@@ -80,8 +85,9 @@ private:
     std::vector<VdbEntry> table_;
 };
 
-/// Reads a grid's tree from where its nodes stand and, `block_at`, where its leaves' values do: fills `grid`'s background,
-/// leaves, values and tiles. `packing`: the grid's compression flags.
-void read_vdb_tree(VdbCursor& cursor, std::uint64_t block_at, std::uint32_t packing, SparseGrid& grid);
+/// Reads a grid's tree from where its nodes stand and, `block_at`, where its leaves' values do:
+/// fills `grid`'s background, leaves, values and tiles. `packing`: the grid's compression flags.
+void read_vdb_tree(VdbCursor& cursor, std::uint64_t block_at, std::uint32_t packing,
+                   SparseGrid& grid);
 
 } // namespace sward::texgen

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tree of a grid: a root, nodes of 32 and of 16 cells a side, leaves of 8 voxels. First come all nodes with their masks
-// and tiles, then, in the same order, the leaves' values.
+// The tree of a grid: a root, nodes of 32 and of 16 cells a side, leaves of 8 voxels. First come
+// all nodes with their masks and tiles, then, in the same order, the leaves' values.
 #include <algorithm>
 #include <bit>
 #include <climits>
@@ -40,7 +40,9 @@ public:
         const std::span<const std::byte> bytes = cursor.take(words_.size() * 8);
         std::memcpy(words_.data(), bytes.data(), bytes.size());
     }
-    [[nodiscard]] bool on(int i) const { return words_[static_cast<std::size_t>(i) / 64] >> (i % 64) & 1; }
+    [[nodiscard]] bool on(int i) const {
+        return words_[static_cast<std::size_t>(i) / 64] >> (i % 64) & 1;
+    }
     [[nodiscard]] std::size_t count() const {
         std::size_t sum = 0;
         for (const std::uint64_t w : words_)
@@ -56,14 +58,16 @@ private:
 class TreeReading {
 public:
     TreeReading(VdbCursor& cursor, std::uint32_t packing, SparseGrid& grid)
-        : cursor_(cursor), packing_(packing), grid_(grid), name_("grid " + base::printable(grid.name)),
+        : cursor_(cursor), packing_(packing), grid_(grid),
+          name_("grid " + base::printable(grid.name)),
           components_(static_cast<std::size_t>(grid.components)) {}
 
     void topology() {
         if (cursor_.number<std::int32_t>() != 1)
             refuse("buffers", "several", "one");
         grid_.background = value();
-        const auto tiles = cursor_.number<std::uint32_t>(), children = cursor_.number<std::uint32_t>();
+        const auto tiles = cursor_.number<std::uint32_t>(),
+                   children = cursor_.number<std::uint32_t>();
         for (std::uint32_t i = 0; i < tiles; ++i) {
             const glm::ivec3 origin = root_cell();
             const std::array<float, 3> v = value();
@@ -94,7 +98,8 @@ public:
     }
 
 private:
-    [[noreturn]] void refuse(const char* what, const std::string& found, const char* expected) const {
+    [[noreturn]] void refuse(const char* what, const std::string& found,
+                             const char* expected) const {
         cursor_.refuse(fmt::format("{}: {}", name_, what), found, expected);
     }
 
@@ -106,10 +111,12 @@ private:
     }
 
     glm::ivec3 root_cell() {
-        const int x = cursor_.number<std::int32_t>(), y = cursor_.number<std::int32_t>(), z = cursor_.number<std::int32_t>();
+        const int x = cursor_.number<std::int32_t>(), y = cursor_.number<std::int32_t>(),
+                  z = cursor_.number<std::int32_t>();
         for (const int i : {x, y, z})
             if (i % kRootSide != 0 || i <= -kFarthest || i >= kFarthest)
-                refuse("a node", fmt::format("at ({}, {}, {})", x, y, z), "a multiple of 4096 below 2^30");
+                refuse("a node", fmt::format("at ({}, {}, {})", x, y, z),
+                       "a multiple of 4096 below 2^30");
         return {x, y, z};
     }
 
@@ -122,14 +129,16 @@ private:
         std::copy_n(v, components_, tile.value.begin());
         grid_.tiles.push_back(tile);
         if (active)
-            count(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side));
+            count(static_cast<std::uint64_t>(side) * static_cast<std::uint64_t>(side) *
+                  static_cast<std::uint64_t>(side));
     }
 
     void count(std::uint64_t voxels) {
         active_ += voxels;
         const std::uint64_t stored = std::uint64_t{grid_.leaves.size()} * SparseGrid::kLeafVoxels;
         if (std::max(active_, stored) > kMaxVdbVoxels)
-            cursor_.over(name_, fmt::format("{} voxels or more", std::max(active_, stored)), fmt::format("at most {}", kMaxVdbVoxels));
+            cursor_.over(name_, fmt::format("{} voxels or more", std::max(active_, stored)),
+                         fmt::format("at most {}", kMaxVdbVoxels));
     }
 
     /// An inner node of `side` voxels.
@@ -138,13 +147,15 @@ private:
         const int cells = cells_a_side * cells_a_side * cells_a_side;
         const Mask children(cursor_, cells), on(cursor_, cells);
         const auto place = [&](int i) {
-            return origin + cell * glm::ivec3(i / (cells_a_side * cells_a_side), i / cells_a_side % cells_a_side, i % cells_a_side);
+            return origin + cell * glm::ivec3(i / (cells_a_side * cells_a_side),
+                                              i / cells_a_side % cells_a_side, i % cells_a_side);
         };
         std::vector<float> tiles(static_cast<std::size_t>(cells) * components_);
         values(on, cells, tiles.data());
         for (int i = 0; i < cells; ++i)
             if (!children.on(i))
-                add_tile(place(i), cell, &tiles[static_cast<std::size_t>(i) * components_], on.on(i));
+                add_tile(place(i), cell, &tiles[static_cast<std::size_t>(i) * components_],
+                         on.on(i));
         tiles = {};
         for (int i = 0; i < cells; ++i)
             if (children.on(i) && cell == kMiddleSide)
@@ -161,7 +172,8 @@ private:
         count(mask.count());
     }
 
-    /// The values of a node's cells. Inactive ones may be left out of the file: one or two values and a mask stand for them.
+    /// The values of a node's cells. Inactive ones may be left out of the file: one or two values
+    /// and a mask stand for them.
     void values(const Mask& on, int cells, float* out) {
         const auto kind = cursor_.number<std::uint8_t>();
         if (kind > kAllStored)
@@ -174,7 +186,8 @@ private:
             first = value();
         if (kind == kMaskAndTwoValues)
             second = value();
-        const bool chosen = kind == kMaskOfSigns || kind == kMaskAndOneValue || kind == kMaskAndTwoValues;
+        const bool chosen =
+            kind == kMaskOfSigns || kind == kMaskAndOneValue || kind == kMaskAndTwoValues;
         std::vector<Mask> choice;
         if (chosen)
             choice.emplace_back(cursor_, cells);
@@ -191,7 +204,8 @@ private:
                 std::copy_n(next, components_, out);
                 next += components_;
             } else {
-                std::copy_n((chosen && choice.front().on(i) ? second : first).data(), components_, out);
+                std::copy_n((chosen && choice.front().on(i) ? second : first).data(), components_,
+                            out);
             }
     }
 
@@ -213,31 +227,39 @@ private:
         }
     }
 
-    /// The next `bytes` bytes, unpacked. A length of 0 or below says that so many stand there as they are.
+    /// The next `bytes` bytes, unpacked. A length of 0 or below says that so many stand there as
+    /// they are.
     std::span<const std::byte> raw_bytes(std::size_t bytes) {
         if ((packing_ & (kBlosc | kZip)) == 0)
             return cursor_.take(bytes);
         const auto length = cursor_.number<std::int64_t>();
         if (length <= 0) {
             if (length != -static_cast<std::int64_t>(bytes))
-                refuse("values", fmt::format("a length of {}", length), fmt::format("-{}", bytes).c_str());
+                refuse("values", fmt::format("a length of {}", length),
+                       fmt::format("-{}", bytes).c_str());
             return cursor_.take(bytes);
         }
         const std::span<const std::byte> packed = cursor_.take(static_cast<std::uint64_t>(length));
         scratch_.resize(std::max<std::size_t>(bytes, 1));
         if (!((packing_ & kBlosc) != 0 ? unblosc(packed, bytes) : unzip(packed, bytes)))
-            refuse("values", fmt::format("{} bytes that do not unpack", length), fmt::format("{} bytes, packed", bytes).c_str());
+            refuse("values", fmt::format("{} bytes that do not unpack", length),
+                   fmt::format("{} bytes, packed", bytes).c_str());
         return std::span(scratch_).first(bytes);
     }
 
     bool unblosc(std::span<const std::byte> packed, std::size_t bytes) {
-        std::size_t unpacked = 0; // blosc trusts the sizes in its header: they are compared with ours first
-        return packed.size() >= BLOSC_MIN_HEADER_LENGTH && blosc_cbuffer_validate(packed.data(), packed.size(), &unpacked) == 0 &&
-               unpacked == bytes && blosc_decompress_ctx(packed.data(), scratch_.data(), bytes, 1) == static_cast<int>(bytes);
+        std::size_t unpacked =
+            0; // blosc trusts the sizes in its header: they are compared with ours first
+        return packed.size() >= BLOSC_MIN_HEADER_LENGTH &&
+               blosc_cbuffer_validate(packed.data(), packed.size(), &unpacked) == 0 &&
+               unpacked == bytes &&
+               blosc_decompress_ctx(packed.data(), scratch_.data(), bytes, 1) ==
+                   static_cast<int>(bytes);
     }
     bool unzip(std::span<const std::byte> packed, std::size_t bytes) {
         uLongf unpacked = static_cast<uLongf>(bytes);
-        return ::uncompress(reinterpret_cast<Bytef*>(scratch_.data()), &unpacked, reinterpret_cast<const Bytef*>(packed.data()),
+        return ::uncompress(reinterpret_cast<Bytef*>(scratch_.data()), &unpacked,
+                            reinterpret_cast<const Bytef*>(packed.data()),
                             static_cast<uLong>(packed.size())) == Z_OK &&
                unpacked == bytes;
     }
@@ -260,7 +282,8 @@ private:
             return;
         const glm::i64vec3 size = glm::i64vec3(high) - glm::i64vec3(low) + std::int64_t{1};
         if (std::max({size.x, size.y, size.z}) > kMaxVdbSide)
-            cursor_.over(name_, fmt::format("a box of {} x {} x {} voxels", size.x, size.y, size.z), fmt::format("at most {} a side", kMaxVdbSide));
+            cursor_.over(name_, fmt::format("a box of {} x {} x {} voxels", size.x, size.y, size.z),
+                         fmt::format("at most {} a side", kMaxVdbSide));
     }
 
     VdbCursor& cursor_;
@@ -275,9 +298,11 @@ private:
 
 } // namespace
 
-void read_vdb_tree(VdbCursor& cursor, std::uint64_t block_at, std::uint32_t packing, SparseGrid& grid) {
+void read_vdb_tree(VdbCursor& cursor, std::uint64_t block_at, std::uint32_t packing,
+                   SparseGrid& grid) {
     if (packing > (kZip | kActiveMask | kBlosc))
-        cursor.refuse("grid " + base::printable(grid.name) + ": compression", std::to_string(packing), "0 to 7");
+        cursor.refuse("grid " + base::printable(grid.name) + ": compression",
+                      std::to_string(packing), "0 to 7");
     TreeReading reading(cursor, packing, grid);
     reading.topology();
     cursor.seek(block_at);

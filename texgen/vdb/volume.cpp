@@ -29,7 +29,8 @@ struct Deposit {
 constexpr int kPerVoxel = 4; // samples a voxel width, along and across a blade
 constexpr int kLeastSteps = 16;
 
-const shared::GrassAppearance& look_of(const grass::GrassSet& set, const shared::BladeRecord& blade) {
+const shared::GrassAppearance& look_of(const grass::GrassSet& set,
+                                       const shared::BladeRecord& blade) {
     return set.species[species_of(blade)].look;
 }
 
@@ -37,7 +38,8 @@ const shared::GrassAppearance& look_of(const grass::GrassSet& set, const shared:
 class Surface {
 public:
     Surface(const grass::GrassSet& set, const shared::BladeRecord& blade)
-        : outline_(look_of(set, blade).outline), root_(blade.root.x, 0, blade.root.y), v1_(blade.v1), v2_(blade.v2),
+        : outline_(look_of(set, blade).outline), root_(blade.root.x, 0, blade.root.y),
+          v1_(blade.v1), v2_(blade.v2),
           across_(std::cos(blade.shape.x), 0, std::sin(blade.shape.x)), half_(blade.v1.w) {}
 
     [[nodiscard]] glm::dvec3 at(double v) const {
@@ -63,8 +65,7 @@ class Sampler {
 public:
     Sampler(double voxel_m, int cells) : voxel_m_(voxel_m), cells_(cells) {}
 
-    void add(const Surface& blade, double length, std::uint32_t number,
-             std::vector<Deposit>& out) {
+    void add(const Surface& blade, double length, std::uint32_t number, std::vector<Deposit>& out) {
         own_.clear();
         const int steps =
             std::max(kLeastSteps, static_cast<int>(std::ceil(length / voxel_m_ * kPerVoxel)));
@@ -171,8 +172,7 @@ std::vector<std::byte> encode_volume(const grass::GrassSet& set) {
 }
 
 Volume read_volume(const std::filesystem::path& set_directory) {
-    const std::vector<std::byte> bytes =
-        grass::read_set_file(set_directory, grass::kVolumeFile);
+    const std::vector<std::byte> bytes = grass::read_set_file(set_directory, grass::kVolumeFile);
     return VdbFile(bytes, set_directory / grass::kVolumeFile).read_volume({});
 }
 
