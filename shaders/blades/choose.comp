@@ -43,7 +43,7 @@ uint choose(uvec2 item, uint index) {
         blade.root.w >= ground_surface(root.xz).density) {
         return kGone;
     }
-    if (outside(root, blade.shape.y)) {
+    if (outside(root, blade.shape.y * highest())) {
         return kOutside;
     }
     return pictures_with(blade, blade_pose(uvec2(item.x, index), blade));

@@ -93,14 +93,14 @@ uint verdict(uvec2 item, uint index) {
         blade.root.w >= ground_surface(root.xz).density) {
         return uint(CULL_LEFT);
     }
-    if (tested(CULL_FRUSTUM) && !in_view(root, blade.shape.y)) {
+    if (tested(CULL_FRUSTUM) && !in_view(root, blade.shape.y * highest())) {
         return uint(CULL_FRUSTUM);
     }
     if (tested(CULL_ORIENTATION) && edge_on(root, blade_width_direction(blade.shape.x))) {
         return uint(CULL_ORIENTATION);
     }
     // Wherever it bends to, a blade stays within its length of its root.
-    if (tested(CULL_OCCLUSION) && occluded(root, blade.shape.y)) {
+    if (tested(CULL_OCCLUSION) && occluded(root, blade.shape.y * highest())) {
         return uint(CULL_OCCLUSION);
     }
     return uint(CULL_KEPT);

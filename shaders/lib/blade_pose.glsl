@@ -77,6 +77,12 @@ BladePose blade_pose(uvec2 which, BladeRecord blade) {
     vec3 flutter =
         flutter_at(frame.flutter_time, vec4(blade.shape.y, blade.v2.w, blade.root.zw), amplitude);
     flutter_blade(pose.v1, pose.v2, blade.shape.y, flutter.xy, wind);
+    if (has_heights()) { // last of all, since flutter keeps a blade's length: the march draws its
+                         // whole canopy out, too
+        float height = land_height(pose.root.xz, distance(pose.root, frame.eye) / frame.focal_px);
+        pose.v1.y *= height;
+        pose.v2.y *= height;
+    }
     pose.facing = blade.shape.x + flutter.z;
     return pose;
 }

@@ -9,6 +9,7 @@
 layout(binding = TEX_CLIP_HEIGHT) uniform sampler2DArray clip_height;
 layout(binding = TEX_CLIP_SURFACE) uniform sampler2DArray clip_surface;
 layout(binding = TEX_MASK) uniform sampler2D mask;
+#include "lib/land.glsl"
 
 // A level is whole out to 56 cells from the eye (its window moves in steps of 16); it dissolves
 // into the next before that.
@@ -67,12 +68,14 @@ struct Ground {
 // Density by the scene's mask, as the mean over `width` metres: not through the clipmap, whose
 // posts far away are wider than the roads that a mask shows.
 float mask_density(vec2 xz, float width) {
-    vec2 uv = xz * frame.mask_per_m + frame.mask_offset;
-    if (frame.mask_mode == kMaskBounded && clamp(uv, vec2(0.0), vec2(1.0)) != uv) {
+    vec2 uv = mask_uv(xz);
+    if (off_mask(uv)) {
         return 0.0;
     }
     vec2 texels = vec2(textureSize(mask, 0)) * frame.mask_per_m;
-    return textureLod(mask, uv, log2(max(width * max(texels.x, texels.y), 1.0))).r;
+    float lod = log2(max(width * max(texels.x, texels.y), 1.0));
+    float density = textureLod(mask, uv, lod).r;
+    return has_land() ? land_density(density, xz, uv, lod, width) : density;
 }
 
 // `width`: of what the answer stands for (m); a pixel at least.
@@ -96,6 +99,7 @@ Ground ground_surface(vec2 xz, float width) {
             textureLod(clip_height, clip_uv(xz, place.level), 0.0).r - frame.anchor_height_m;
         float pixel = distance(vec3(xz.x, height, xz.y), frame.eye) / frame.focal_px;
         density = mask_density(xz, max(width, pixel));
+        s.w += has_land() ? land_dryness(xz, max(width, pixel)) : 0.0;
     }
     return Ground(vec3(n.x, sqrt(max(1.0 - dot(n, n), 0.0)), n.y), density * frame.density_scale,
                   s.w);

@@ -140,6 +140,10 @@
     30 // RG16F: heights over the ground at which the sun begins to be seen and is wholly seen (m)
 #define TEX_FAR_SHAPES                                                                             \
     15 // BC5 array beside far_images, where the set has one: tangent and root offset of its images
+#define TEX_LAND_COVER                                                                             \
+    32 // RGBA8: of a landcover factor on height times where grass may stand, dryness, share of
+       // water, of asphalt
+#define TEX_LAND_GROUND 33 // RGBA8: share of gravel, of sand, of rock; where no grass can stand
 
 #define CULL_GROUP 128  // blades a workgroup; a chunk of a tile's list
 #define GATHER_ITEMS 16 // chunks that a lane gathers into draws

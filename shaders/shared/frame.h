@@ -85,10 +85,12 @@ struct FrameConstants {
     int anchor_x, anchor_z; // of the anchor, in kAnchorGrid_m
     int unused_a, unused_b; // to 16 bytes
     Air air;
-    vec2 shadow_offset;                 // of the land's shadow: u, v of the anchor
-    vec2 shadow_per_m;                  // u, v a metre
-    float has_shadow;                   // 1 where the land's shadow is known
-    float unused_c, unused_d, unused_e; // to 16 bytes
+    vec2 shadow_offset; // of the land's shadow: u, v of the anchor
+    vec2 shadow_per_m;  // u, v a metre
+    float has_shadow;   // 1 where the land's shadow is known
+    float land_texel_m; // of the landcover; 0: there is none
+    float land_highest; // greatest factor on height, 1 at least
+    float land_uneven;  // 1 where heights differ
 };
 #ifdef __cplusplus
 static_assert(sizeof(ClipLevel) == 16 && sizeof(FarBand) == 16);

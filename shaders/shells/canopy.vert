@@ -20,7 +20,8 @@ void main() {
     vec2 xz = block.corner + cell * block.spacing_m;
     BlockSample here = samples[gl_InstanceID * kBlockPosts + gl_VertexID];
     float canopy = frame.canopy_m;
-    float top = canopy + bend_offset(canopy, canopy, here.wind, frame.wind.response).y;
+    float top = frame.land_highest *
+                (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.response).y);
     ground = vec4(here.slope, here.density, here.tint);
     air = vec4(here.wind, here.sway);
     gl_Position = frame.clip_from_world * vec4(xz.x, here.height_m + top, xz.y, 1.0);

@@ -37,7 +37,7 @@ vec4 members_of(View view, vec4 entries, vec2 slope) {
     float farthest = max(max(near.x, near.y), max(near.z, near.w));
     if (farthest > nearest * kMaybeValley) {
         vec3 between = frame.eye + view.way * (0.5 * (nearest + farthest));
-        float over = between.y - ground_at(between.xz) - frame.canopy_m;
+        float over = between.y - ground_at(between.xz) - highest() * frame.canopy_m;
         reach = over > kValley_px * nearest / frame.focal_px ? nearest * (1.0 + kSameShare) : reach;
     }
     return vec4(lessThan(entries, vec4(kNever))) * vec4(lessThanEqual(entries, vec4(reach)));
@@ -61,12 +61,13 @@ View view_through(ivec2 pixel, vec4 members, vec2 ndc) {
 Entry entry_at(View view, float distance_m) {
     Entry entry;
     entry.distance = distance_m;
-    entry.height = frame.canopy_m;
+    entry.height = highest() * frame.canopy_m;
     vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
     entry.ground = ground_under(xz);
     vec2 wind = wind_at(xz);
     vec3 ground = frame.eye + view.way * min(distance_m, kFarthest) - vec3(0.0, entry.height, 0.0);
     entry.air = vec4(wind, sway_at(ground, wind).xy);
     entry.lying = entry.aligned = 1.0;
-    return has_tracks() ? entry_on_track(view, entry) : entry;
+    return has_tracks() || has_heights() ? entry_on_track(view, entry, canopy_top(entry.air.xy))
+                                         : entry;
 }

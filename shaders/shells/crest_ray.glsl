@@ -63,13 +63,14 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
             return drawn;
         }
     }
-    next.height = over_it ? path.bend.w : march_height(path, walk.s);
+    next.height = over_it ? path.bend.w * highest()
+                          : march_height(path, walk.s) * (has_heights() ? entry.lying : 1.0);
     next.distance = entry.distance + walk.s;
     if (over_it) {
         float last = min(scene, kHorizon);
         float from = next.distance + 0.1;
         vec3 here = frame.eye + view.way * from;
-        if (here.y - ground_at(here.xz) < kSkims * next.height) {
+        if (!has_heights() && here.y - ground_at(here.xz) < kSkims * next.height) {
             return entry_falling(view, next, from, kSkimFall);
         }
         bool ends_soon = last < from * (1.0 + kSameShare);
@@ -80,7 +81,7 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
     }
     next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
     next.distance = walk.layer < 0 ? kNever : next.distance;
-    return next;
+    return has_heights() && next.distance < kNever ? entry_on_track(view, next, next.height) : next;
 }
 
 // A ray of some of the pixel's samples.
@@ -119,12 +120,12 @@ Ray ray_after(ivec2 pixel, Ray ray, MarchPath path, MarchWalk walk, vec4 scene,
     vec4 behind = mix(vec4(0.0), scene, ray.members);
     if (walk.layer >= kMarchLayers) {
         float from = ray.entry.distance + walk.s + 0.1;
-        vec4 soon = ends_at_crest(ray, from, path.bend.w, scene);
+        vec4 soon = ends_at_crest(ray, from, path.bend.w * highest(), scene);
         if (dot(soon, vec4(1.0)) > 0.0) { // these, then the rest from here on
             bvec4 rest = greaterThan(ray.members - soon, vec4(0.5)); // kNever is too large to blend
             entries = mix(entries, vec4(from), rest);
             ray.members = soon;
-            ray.entry.height = path.bend.w;
+            ray.entry.height = path.bend.w * highest();
             float first = nearest_of(mix(vec4(kNever), scene, greaterThan(soon, vec4(0.5))));
             ray.entry = entry_falling(ray.view, ray.entry, first - 2.0 * ray.entry.height, 0.5);
             return ray;

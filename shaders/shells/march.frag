@@ -131,7 +131,8 @@ float tint_of(View view, Entry entry, MarchPath path, MarchPlan plan, float half
 #else
     float seen = half_way < kNever ? half_way : entry.distance + min(ground_reach(path), plan.run);
     vec2 xz = frame.eye.xz + view.way.xz * min(seen, kFarthest);
-    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z), entry.ground.w,
+    return sward_patches(xz, ivec2(frame.anchor_x, frame.anchor_z),
+                         has_land() ? ground_surface(xz, plan.footprint).tint : entry.ground.w,
                          max(plan.footprint, 0.5 * plan.stretch));
 #endif
 }
@@ -154,7 +155,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     plan.kind = kind;
     march_settle(plan);
     vec2 factors = correction_at(plan);
-    float scale = plan.density * factors.x * step(0.0021, entry.ground.z);
+    float scale = plan.density * factors.x * bears_any(entry, plan);
     Light light = light_at(entry);
     vec3 normal = normal_at(entry);
     float slope = dot(normal, frame.light.to_sun); // both in the world
@@ -179,7 +180,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
         Texel at = texel_of(plan, taken);
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
-        float depth = scale * taken.depth * texel.a;
+        float depth = scale * taken.depth * texel.a * land_share(entry, plan, taken.rest);
         float middle = entry.distance + 0.5 * (taken.span.x + taken.span.y);
         depth *= far_share(frame.eye + view.way * middle);
         depth = march_beside(depth);
@@ -191,7 +192,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
 #endif
         float shown = mean_of(lost);
         march_gather(seen.grass, light, slope,
-                     MarchBlades(albedo, mean_tangent(path, taken, at, shown),
+                     MarchBlades(albedo, land_tangent(entry, mean_tangent(path, taken, at, shown)),
                                  taken.rest.y / frame.canopy_m, shown));
         bool more = seen.through.x > 0.5;
         seen.through -= lost;

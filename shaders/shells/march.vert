@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Out: a triangle over the whole screen, at a depth: that of one kind's pixels; and what the eye
 // stands in.
+#define LAND_SMOOTH
 #include "lib/ground.glsl"
 #include "lib/sway.glsl"
 
@@ -23,7 +24,7 @@ void main() {
     gl_Position = vec4(ndc, plane, 1.0);
     float canopy = frame.canopy_m;
     vec2 wind = wind_at(frame.eye.xz);
-    float top = canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y;
+    float top = highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
     Ground ground = ground_surface(frame.eye.xz);
     eye_place = vec2(eye_height < top + frame.near_m ? 1.0 : 0.0, eye_height);
     eye_ground = vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);

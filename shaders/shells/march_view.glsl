@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A pixel's ray and where it enters the canopy: for the choice of its kind and for the march
 // itself. SURFACE: the canopy of a mesh.
+#define LAND_SMOOTH
 #include "lib/ground.glsl"
 #include "shared/bend.h"
 #include "shared/lod.h"
@@ -68,51 +69,78 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
-// Tracks are finer than the vertices that the canopy's surface was drawn by, which know the wind
-// alone: where stems lie, the ray goes on down to what is left of the canopy, or comes to the side
-// of what stands beside it.
+// Tracks and classes are finer than the vertices that the canopy's surface was drawn by, which know
+// the wind alone and stand as high as the highest class: the ray goes on down to the top of what
+// stands where it is, or comes to the side of what stands beside it. `from`: height of its entry
+// (m).
 const int kTrackSteps = 4;
+const int kLandSteps = 10;
 const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of
                                // a long footprint is seen at once
-Entry entry_on_track(View view, Entry entry) {
+Entry entry_on_track(View view, Entry entry, float from) {
     float canopy = frame.canopy_m;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
     TrackSeen track = track_nothing();
-    entry.height = canopy + bend_offset(canopy, canopy, standing.xy, frame.wind.response).y;
+    entry.height = from;
+    int most = has_heights() ? kLandSteps : kTrackSteps;
+    float longest = 0.3 * canopy; // no farther at once: something may stand there
+    float down = 0.0;
+    bool trodden = false;
     vec3 at;
-    for (int n = 0; n < kTrackSteps; ++n) {
+    for (int n = 0; n < most; ++n) {
         at = frame.eye + view.way * min(entry.distance, kFarthest);
         float width = entry.distance / frame.focal_px;
-        track =
-            track_along(at.xz, width, view.way.xz * min(width / fall, kTrackReach * canopy / fall));
-        entry.lying = lying_height(track.lying);
+        entry.lying = land_height(at.xz, width);
+        if (has_tracks()) {
+            track = track_along(at.xz, width,
+                                view.way.xz * min(width / fall, kTrackReach * canopy / fall));
+            entry.lying *= lying_height(track.lying);
+        }
         entry.aligned = 1.0;
-        if (dot(track.theta, track.theta) + track.lying < 1e-3) {
-            entry.air = standing;
+        entry.air = standing;
+        trodden = dot(track.theta, track.theta) + track.lying >= 1e-3;
+        if (!trodden && !has_heights()) {
             return entry;
         }
-        vec2 ahead = track_ahead(
-            at.xz, width,
-            kLeanHeight); // the canopy has one bend: that of the height which stands for it
-        if (dot(ahead, ahead) > 0.0) {
-            track.theta = track_at(at.xz + ahead, width).theta;
+        if (trodden) {
+            vec2 ahead = track_ahead(
+                at.xz, width,
+                kLeanHeight); // the canopy has one bend: that of the height which stands for it
+            if (dot(ahead, ahead) > 0.0) {
+                track.theta = track_at(at.xz + ahead, width).theta;
+            }
+            Sway here = sway_of(standing.xy, track);
+            entry.air.xy = here.wind;
+            entry.aligned = here.aligned;
         }
-        Sway here = sway_of(standing.xy, track);
-        entry.air.xy = here.wind;
-        entry.aligned = here.aligned;
-        float down =
+        float over =
             entry.height -
-            entry.lying * (canopy + bend_offset(canopy, canopy, here.wind, frame.wind.response).y);
-        if (down < 0.02 * canopy || n == kTrackSteps - 1) {
+            entry.lying *
+                (canopy + bend_offset(canopy, canopy, entry.air.xy, frame.wind.response).y);
+        bool past = has_heights() && over < -0.1 * canopy &&
+                    down > 0.1 * canopy; // in the side of something: back by half
+        if ((over < 0.02 * canopy && !past) || n == most - 1) {
             break;
         }
-        down = min(down, 0.3 * canopy); // no farther at once: something may stand there
-        entry.height -= down;
-        entry.distance += down / fall;
+        longest = past ? 0.5 * down : longest;
+        down = min(abs(over), longest);
+        entry.height -= past ? -down : down;
+        entry.distance += (past ? -down : down) / fall;
     }
-    entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
+    if (trodden) {
+        entry.air.zw = sway_over(at - vec3(0.0, entry.height, 0.0), standing.xy, track).xy;
+    }
+    if (has_heights()) {
+        entry.ground.z = mask_density(at.xz, entry.distance / frame.focal_px) * frame.density_scale;
+    }
     return entry;
+}
+
+// Height over the ground at which rays come into the canopy from above.
+float canopy_top(vec2 wind) {
+    float canopy = frame.canopy_m;
+    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
 }
 
 // Where the ray comes through the canopy's upper surface from above.
@@ -127,12 +155,15 @@ Entry entry_from_above(View view, ivec2 pixel) {
     }
     Entry entry =
         Entry(distance_m, frame.canopy_m, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
-    return has_tracks() && distance_m < kNever ? entry_on_track(view, entry) : entry;
+    bool uneven = has_tracks() || has_heights();
+    return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy))
+                                         : entry;
 }
 
 Entry entry_of(View view, ivec2 pixel) {
     if (eye_place.x > 0.5) { // the eye stands in the canopy
-        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
+        Entry entry = Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
+        return has_heights() ? entry_on_track(view, entry, eye_place.y) : entry;
     }
     return entry_from_above(view, pixel);
 }
@@ -145,14 +176,15 @@ MarchPath path_of(View view, Entry entry) {
     float bend = 0.5 * kPi * bend_intensity(speed, frame.wind.response) / canopy;
     path.bend = vec4(entry.air.xy / max(speed, 1e-4), bend, 0.0);
     path.bend.w = march_bent_height(path, canopy);
-    float height = min(entry.height, path.bend.w);
+    float height = min(entry.height, path.bend.w * highest());
     path.from = vec3(at.x, height, at.z);
     path.way = view.way;
     float fall = view.way.y - dot(entry.ground.xy, view.way.xz);
     float most = 40.0 * canopy + 0.02 * entry.distance;
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
     float lying = 1.0;
-    if (has_tracks()) { // heights are counted as they were before the stems lay down
+    if (has_tracks() ||
+        has_heights()) { // heights are counted as they were before the stems lay down
         path.bend.xy *= entry.aligned;
         lying = entry.lying;
         height = min(entry.height / lying, path.bend.w);
@@ -206,10 +238,12 @@ float near_reach() {
                : max(frame.handover_band.x - aside, 0.0);
 }
 
+#include "shells/march_land.glsl"
+
 // How the pixel is marched. Where there is next to no grass, as if there were a little.
 MarchPlan plan_of(View view, Entry entry, MarchPath path) {
-    MarchPlan plan =
-        march_look(path, vec3(1.0 / frame.focal_px, entry.distance, max(entry.ground.z, 0.002)));
+    MarchPlan plan = march_look(
+        path, vec3(1.0 / frame.focal_px, entry.distance, max(densest(view, entry, path), 0.002)));
     march_choose(plan, view.dither);
     return plan;
 }

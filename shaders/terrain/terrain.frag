@@ -2,6 +2,7 @@
 // In: the ground. Out: soil where grass is drawn over it; past the shells, the canopy's far
 // appearance, handed over by the same share as the last shells and slices.
 #include "lib/ground.glsl"
+#include "lib/land_ground.glsl"
 #include "lib/output.glsl"
 #include "lib/sway.glsl"
 #include "shared/sward.h"
@@ -13,13 +14,14 @@ in vec2 sway;
 in float gust;
 
 // Reflectance of the ground, as a pixel `width` metres wide shows it: rock where no grass will
-// grow, else soil, moss and litter.
+// grow, else soil, moss and litter. A landcover says itself what lies where.
 vec3 soil_colour(vec2 xz, Ground ground, float width) {
     ivec2 anchor = ivec2(frame.anchor_x, frame.anchor_z);
     float tint = sward_patches(xz, anchor, ground.tint, width);
     float earth = smoothstep(0.0, 0.4, ground.density);
     vec3 floor_here = floor_at(xz, anchor, vec2(frame.soil_cover, tint), width);
-    vec3 bare = mix(frame.rock.rgb, frame.soil, earth) * (floor_here.x * mix(0.75, 1.25, tint));
+    vec3 bare = mix(frame.rock.rgb, frame.soil, has_land() ? 1.0 : earth) *
+                (floor_here.x * mix(0.75, 1.25, tint));
     vec3 cover = mix(frame.moss.rgb, frame.litter.rgb, floor_here.z) * mix(1.0, floor_here.x, 0.5);
     return mix(bare, cover, floor_here.y * earth);
 }
@@ -59,12 +61,19 @@ void main() {
         shade =
             sway_over(world, wind_at(world.xz), track_at(world.xz, distance_m / frame.focal_px)).y;
     }
-    vec3 soil_albedo = soil_colour(world.xz, ground,
-                                   distance_m / frame.focal_px *
-                                       max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0));
+    float width =
+        distance_m / frame.focal_px * max(0.5 / max(dot(to_eye, ground.normal), 0.05), 1.0);
+    Grounds grounds = grounds_at(world.xz, width);
+    vec3 soil_albedo = soil_colour(world.xz, ground, width);
+    if (has_land()) {
+        soil_albedo = ground_colour(soil_albedo, grounds, world.xz, ground.tint, width);
+    }
     float sun = sun_seen(world.xz, 0.0);
     vec3 soil = shade_soil(light_in_sway(frame.light, vec2(sun, shade)), soil_albedo, ground.normal,
                            ground.density);
+    if (grounds.water > 0.0) {
+        soil = mix(soil, water_radiance(world.xz, to_eye, width), grounds.water);
+    }
 
     float left_shells = 1.0 - handover_share(distance(world, frame.lod_eye),
                                              frame.far_bands[frame.far_levels - 1].outgoing);

@@ -70,6 +70,15 @@ void print_ground(const scene::Heightfield& ground) {
     row("heights", fmt::format("{:.2f} to {:.2f} m", *low, *high));
 }
 
+/// The entry of a class; of one that says a density alone, that.
+std::string look_text(const scene::LandClass& look) {
+    std::string text = fmt::format("density {}", look.density);
+    if (!look.plain())
+        text += fmt::format(", height {}, dryness {}, ground {}", look.height, look.dryness,
+                            scene::kGroundNames[static_cast<std::size_t>(look.ground)]);
+    return text;
+}
+
 void print_mask(const scene::TerrainSpec& terrain, const scene::DensityMask& mask) {
     double sum = 0;
     for (const float density : mask.density)
@@ -82,11 +91,19 @@ void print_mask(const scene::TerrainSpec& terrain, const scene::DensityMask& mas
     row("mask", fmt::format("{} x {} texels, {}; mean density {:.4f}", mask.width, mask.height,
                             place, sum / double(mask.density.size())));
     for (const auto& [value, share] : mask.class_shares) {
-        const auto density = terrain.classes.find(value);
+        const auto found = terrain.classes.find(value);
         const std::string name = value < 0 ? "no value" : fmt::format("class {}", value);
-        row(name, fmt::format("{:.3f} % of the terrain, density {}", 100 * share,
-                              density == terrain.classes.end() ? 0.0 : density->second));
+        row(name, fmt::format("{:.3f} % of the terrain, {}", 100 * share,
+                              look_text(found == terrain.classes.end() ? scene::LandClass{}
+                                                                       : found->second)));
     }
+    if (terrain.outside)
+        row("outside", look_text(*terrain.outside));
+    for (const scene::LandFeature& feature : terrain.features)
+        row(feature.width_m > 0 ? "line" : "area",
+            fmt::format("{}{}, {}", base::printable(feature.file.filename().native()),
+                        feature.width_m > 0 ? fmt::format(", {} m wide", feature.width_m) : "",
+                        look_text(feature.look)));
 }
 
 void print_scene(const Options& options) {
@@ -102,7 +119,7 @@ void print_scene(const Options& options) {
     }
     const scene::Heightfield ground = load_elevation(scene.terrain);
     std::optional<scene::DensityMask> mask;
-    if (!scene.terrain.mask.empty())
+    if (scene.terrain.has_mask())
         mask = load_mask(scene.terrain, ground);
     print_name();
     print_ground(ground);

@@ -120,9 +120,12 @@ void make_parent(const fs::path& path) {
 void check_not_inputs(const Options& options, const scene::Scene& scene) {
     const OutputNames names(options);
     const fs::path first = names.name(options.frames ? options.frames->first : 0);
-    for (const fs::path& input :
-         {scene.file, scene.terrain.elevation, scene.terrain.mask, scene.terrain.surface,
-          scene.file.parent_path() / scene.grass.set}) {
+    std::vector<fs::path> inputs = {scene.file, scene.terrain.elevation, scene.terrain.mask,
+                                    scene.terrain.surface,
+                                    scene.file.parent_path() / scene.grass.set};
+    for (const scene::LandFeature& feature : scene.terrain.features)
+        inputs.push_back(feature.file);
+    for (const fs::path& input : inputs) {
         if (input.empty())
             continue;
         if (!options.raw && same_file(first, input))

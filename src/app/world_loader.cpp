@@ -79,7 +79,7 @@ render::World load_world(const scene::Scene& scene, const LoadTold& told) {
     world.elevation = load_elevation(scene.terrain);
     scene::settle_places(world.scene, place_on_earth(world.elevation));
     tell("mask");
-    if (!scene.terrain.mask.empty())
+    if (scene.terrain.has_mask())
         world.mask = load_mask(scene.terrain, world.elevation);
     if (scene.tracks) {
         world.lying = load_track_mask(scene.tracks->mask, world.elevation);

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <gdal_frmts.h>
 #include <ogr_srs_api.h>
+#include <ogrsf_frmts.h>
 
 #include "assets/limits.h"
 #include "base/error.h"
@@ -39,8 +40,19 @@ bool register_drivers() {
     GDALRegister_USGSDEM();
     GDALRegister_PNG();
     GDALRegister_JPEG();
+    RegisterOGRGeoJSON();
+    RegisterOGRGeoPackage();
     OSRSetPROJEnableNetwork(0);
     return true;
+}
+
+/// Absolute: a relative name such as "GTIFF_DIR:1:x" could be an instruction to a driver.
+std::string plain_path(const std::filesystem::path& path) {
+    const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
+    if (absolute.starts_with("/vsi"))
+        throw base::input_error(base::ExitCode::kBadInput, path, 0, "path",
+                                "a virtual path of GDAL", "a file on this machine");
+    return absolute;
 }
 
 } // namespace
@@ -71,12 +83,14 @@ std::string GdalScope::error(const char* otherwise) {
     return message.empty() ? otherwise : message;
 }
 
+Dataset GdalScope::open_features(const std::filesystem::path& path, const char* const* drivers) {
+    return Dataset(GDALOpenEx(plain_path(path).c_str(),
+                              GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_INTERNAL, drivers,
+                              nullptr, nullptr));
+}
+
 Dataset GdalScope::open(const std::filesystem::path& path, const char* const* drivers) {
-    // Absolute: a relative name such as "GTIFF_DIR:1:x" could be an instruction to a driver.
-    const std::string absolute = std::filesystem::absolute(path).lexically_normal().string();
-    if (absolute.starts_with("/vsi"))
-        throw base::input_error(base::ExitCode::kBadInput, path, 0, "path",
-                                "a virtual path of GDAL", "a file on this machine");
+    const std::string absolute = plain_path(path);
     // The one side file that is read, an ASCII grid's CRS, by a driver that would wait on a FIFO.
     for (const char* extension : {".prj", ".PRJ"})
         if (const auto side = std::filesystem::path(absolute).replace_extension(extension);

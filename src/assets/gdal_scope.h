@@ -28,6 +28,9 @@ public:
 
     /// Null where no driver of the list (ended by a null) knows the file.
     [[nodiscard]] Dataset open(const std::filesystem::path& path, const char* const* drivers);
+    /// The same of a file of areas and lines.
+    [[nodiscard]] Dataset open_features(const std::filesystem::path& path,
+                                        const char* const* drivers);
     /// The whole band as float. Its size must have been checked; throws Error where a block is too
     /// large or broken.
     void read(GDALRasterBandH band, const std::filesystem::path& path, std::vector<float>& values);

@@ -9,6 +9,7 @@
 #include "assets/assets.h"
 #include "assets/gdal_scope.h"
 #include "assets/image_file.h"
+#include "assets/land_mask.h"
 #include "assets/mask_warp.h"
 #include "base/error.h"
 #include "base/held_warnings.h"
@@ -60,6 +61,8 @@ scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield
     request.frame = frame ? &*frame : nullptr;
     Channel channel = read_channel(spec.mask, request);
     check_values(spec.mask, !spec.classes.empty(), channel);
+    if (ground && spec.has_land())
+        return land_mask(&channel, spec, *ground);
     const MaskTable table(spec.classes);
     if (channel.placement)
         return warp_mask(channel, table, *ground, spec.mask);
@@ -72,6 +75,8 @@ scene::DensityMask load(const scene::TerrainSpec& spec, const scene::Heightfield
 } // namespace
 
 scene::DensityMask load_mask(const scene::TerrainSpec& spec, const scene::Heightfield& ground) {
+    if (spec.mask.empty()) // areas and lines alone
+        return land_mask(nullptr, spec, ground);
     return load(spec, &ground);
 }
 
@@ -79,7 +84,7 @@ scene::DensityMask load_mask(const std::filesystem::path& path,
                              const std::map<int, double>& classes) {
     scene::TerrainSpec spec;
     spec.mask = path;
-    spec.classes = classes;
+    spec.classes.insert(classes.begin(), classes.end());
     return load(spec, nullptr);
 }
 

@@ -19,51 +19,11 @@ constexpr double kMostFineTexels = 1 << 22;   // that are finer than the posts
 constexpr double kMostPerPixel = 64;          // texels for one of the mask, or of the posts
 constexpr int kMostSamples = 16;              // a texel, along each side
 
-struct Rectangle {
-    glm::dvec2 low{0}, high{0}; ///< x, z
-    bool whole = false;         ///< the terrain's own: the mask covers all of it
-};
+using Rectangle = MaskArea;
 
 bool covers(const Channel& channel, glm::dvec2 post) {
     return post.x >= -0.5 && post.y >= -0.5 && post.x <= channel.width - 0.5 &&
            post.y <= channel.height - 0.5; // NaN: no
-}
-
-/// The part of the terrain that the mask may cover.
-Rectangle overlap(const Channel& channel, const scene::Heightfield& ground,
-                  const std::filesystem::path& path) {
-    constexpr int kPoints = 256; // a side
-    const glm::dvec2 half = 0.5 * ground.extent_m();
-    std::vector<glm::dvec2> rim = outline(-half, half, kPoints);
-    channel.placement->metres_to_posts(rim);
-    const bool whole =
-        std::all_of(rim.begin(), rim.end(), [&](glm::dvec2 p) { return covers(channel, p); });
-    if (whole)
-        return {-half, half, true};
-    std::vector<glm::dvec2> border =
-        outline({-0.5, -0.5}, {channel.width - 0.5, channel.height - 0.5}, kPoints);
-    channel.placement->posts_to_metres(border);
-    glm::dvec2 low(1e30), high(-1e30);
-    for (const glm::dvec2& p : border) {
-        if (!std::isfinite(p.x + p.y))
-            return {-half, half, false}; // it goes around the Earth, or past its edge
-        low = glm::min(low, glm::dvec2(p.x, -p.y));
-        high = glm::max(high, glm::dvec2(p.x, -p.y));
-    }
-    const glm::dvec2 middle = 0.5 * (low + high), size = high - low;
-    const bool any_inside =
-        std::any_of(rim.begin(), rim.end(), [&](glm::dvec2 p) { return covers(channel, p); });
-    low = glm::max(low, -half);
-    high = glm::min(high, half);
-    if (any_inside && !(low.x < high.x && low.y < high.y))
-        return {-half, half, false}; // its outline is no outline here: it surrounds a pole
-    if (!(low.x < high.x && low.y < high.y))
-        throw base::input_error(
-            base::ExitCode::kBadInput, path, 0, "place of the mask",
-            fmt::format("{:.1f} x {:.1f} km, {:.1f} km from the terrain's middle", size.x / 1000,
-                        size.y / 1000, glm::length(middle) / 1000),
-            "one that covers some of the terrain");
-    return {low, high, false};
 }
 
 struct Pixels {
@@ -170,12 +130,52 @@ std::map<int, double> shares_of(const std::vector<std::uint64_t>& counts, double
 
 } // namespace
 
-MaskTable::MaskTable(const std::map<int, double>& classes) {
+MaskArea mask_area(const Channel& channel, const scene::Heightfield& ground,
+                   const std::filesystem::path& path) {
+    constexpr int kPoints = 256; // a side
+    const glm::dvec2 half = 0.5 * ground.extent_m();
+    std::vector<glm::dvec2> rim = outline(-half, half, kPoints);
+    channel.placement->metres_to_posts(rim);
+    const bool whole =
+        std::all_of(rim.begin(), rim.end(), [&](glm::dvec2 p) { return covers(channel, p); });
+    if (whole)
+        return {-half, half, true};
+    std::vector<glm::dvec2> border =
+        outline({-0.5, -0.5}, {channel.width - 0.5, channel.height - 0.5}, kPoints);
+    channel.placement->posts_to_metres(border);
+    glm::dvec2 low(1e30), high(-1e30);
+    for (const glm::dvec2& p : border) {
+        if (!std::isfinite(p.x + p.y))
+            return {-half, half, false}; // it goes around the Earth, or past its edge
+        low = glm::min(low, glm::dvec2(p.x, -p.y));
+        high = glm::max(high, glm::dvec2(p.x, -p.y));
+    }
+    const glm::dvec2 middle = 0.5 * (low + high), size = high - low;
+    const bool any_inside =
+        std::any_of(rim.begin(), rim.end(), [&](glm::dvec2 p) { return covers(channel, p); });
+    low = glm::max(low, -half);
+    high = glm::min(high, half);
+    if (any_inside && !(low.x < high.x && low.y < high.y))
+        return {-half, half, false}; // its outline is no outline here: it surrounds a pole
+    if (!(low.x < high.x && low.y < high.y))
+        throw base::input_error(
+            base::ExitCode::kBadInput, path, 0, "place of the mask",
+            fmt::format("{:.1f} x {:.1f} km, {:.1f} km from the terrain's middle", size.x / 1000,
+                        size.y / 1000, glm::length(middle) / 1000),
+            "one that covers some of the terrain");
+    return {low, high, false};
+}
+
+double finest_pixel_m(const Channel& channel, const MaskArea& area) {
+    return pixels_in(channel, area).finest_m;
+}
+
+MaskTable::MaskTable(const std::map<int, scene::LandClass>& classes) {
     if (classes.empty())
         return;
     densities_.assign(kClasses, 0.0f);
-    for (const auto& [value, density] : classes)
-        densities_[static_cast<std::size_t>(value)] = static_cast<float>(density);
+    for (const auto& [value, look] : classes)
+        densities_[static_cast<std::size_t>(value)] = static_cast<float>(look.density);
 }
 
 float MaskTable::density(float value) const {
@@ -202,7 +202,7 @@ scene::DensityMask spread_mask(Channel channel, const MaskTable& table) {
 
 scene::DensityMask warp_mask(const Channel& channel, const MaskTable& table,
                              const scene::Heightfield& ground, const std::filesystem::path& path) {
-    const Rectangle area = overlap(channel, ground, path);
+    const Rectangle area = mask_area(channel, ground, path);
     const Sampling sampling = choose(channel, table.by_class(), area, ground.spacing_m);
     scene::DensityMask mask;
     mask.first_m = area.low;

@@ -275,6 +275,31 @@ std::unique_ptr<Placement> place_raster(GDALDatasetH dataset, const fs::path& pa
     return placement;
 }
 
+FrameWarp warp_to_frame(void* srs, const scene::Georeference& frame, const fs::path& path) {
+    if (!srs)
+        throw bad(path, "CRS", "none", "one that says where on Earth it lies");
+    const Reference source = own(OSRClone(static_cast<OGRSpatialReferenceH>(srs)));
+    Reference local;
+    if (frame.crs.empty()) {
+        local = wgs84();
+    } else {
+        local = own(OSRNewSpatialReference(nullptr));
+        std::string wkt = frame.crs;
+        char* text = wkt.data();
+        if (OSRImportFromWkt(handle(local), &text) != OGRERR_NONE)
+            throw bad(path, "CRS of the terrain", "one that PROJ cannot read", "one that it knows");
+    }
+    auto way = std::make_shared<Transformation>(between(source, local));
+    if (!*way)
+        throw bad(path, "CRS", base::printable(OSRGetName(handle(source))),
+                  "one with a way to the terrain's");
+    return [way, frame](std::vector<glm::dvec2>& points) {
+        transform(*way, points);
+        for (glm::dvec2& p : points)
+            p = frame.crs.empty() ? scene::linear_place(frame, p.y, p.x) : glm::dvec2(p.x, -p.y);
+    };
+}
+
 std::optional<glm::dvec2> bare_spacing(GDALDatasetH dataset) {
     std::array<double, 6> affine{};
     OGRSpatialReferenceH srs = GDALGetSpatialRef(dataset);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -33,6 +34,14 @@ public:
 [[nodiscard]] std::unique_ptr<Placement> place_raster(GDALDatasetH dataset,
                                                       const std::filesystem::path& path,
                                                       const scene::Georeference* frame);
+
+/// Points in a file's CRS, x east and y north, to x and z of a frame (m); NaN where they have no
+/// image.
+using FrameWarp = std::function<void(std::vector<glm::dvec2>&)>;
+/// `srs`: an OGRSpatialReferenceH, which it copies. Throws base::Error(kBadInput) naming `path`
+/// where there is none, or no way.
+[[nodiscard]] FrameWarp warp_to_frame(void* srs, const scene::Georeference& frame,
+                                      const std::filesystem::path& path);
 
 /// Metres a post of a raster that is measured in metres (or feet) without a place on Earth:
 /// upright, or nothing.

@@ -41,7 +41,7 @@ std::vector<Candidate> candidates(const grass::GrassSet& set, const terrain::Sur
                 surface.height(corner_world.x + side / 2, corner_world.y + side / 2) -
                 query.anchor.y;
             const double slack = 1.5 * side;
-            const float reach = set.canopy_m * 1.2f;
+            const float reach = set.canopy_m * 1.2f * query.highest;
             const glm::vec3 box_low(corner.x - reach, middle - slack, corner.y - reach);
             const glm::vec3 box_high(corner.x + side + reach, middle + slack + reach,
                                      corner.y + side + reach);

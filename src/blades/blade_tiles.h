@@ -28,6 +28,7 @@ struct TileQuery {
     glm::vec2 band{0};            ///< hand-over band (m)
     int mode = 0;                 ///< hand-over mode (shared/lod.h)
     const Pages* pages = nullptr; ///< of the living blades; null: none lives
+    float highest = 1;            ///< factor on blades' height (FrameConstants::land_highest)
 };
 
 /// Tiles within the band's end that may be seen, nearest first. Inside a tile only the blades whose

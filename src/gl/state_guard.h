@@ -17,7 +17,7 @@ public:
     StateGuard(const StateGuard&) = delete;
     StateGuard& operator=(const StateGuard&) = delete;
 
-    static constexpr int kUnits = 31;         ///< texture units 0 to 30
+    static constexpr int kUnits = 34;         ///< texture units 0 to 33
     static constexpr int kUniformBuffers = 7; ///< bindings
     static constexpr int kStorageBuffers = 8;
     static constexpr int kDrawBuffers = 8; ///< with a colour mask and blending of their own

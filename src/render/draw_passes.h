@@ -16,9 +16,10 @@ namespace sward::render {
 
 /// Draw passes of one variant: with or without AOV outputs. Views of a field share them.
 struct DrawPasses {
-    DrawPasses(bool aov, bool block_shapes, bool surface)
-        : terrain(aov), blades(aov), shells(shells::FarPass::Family::kShells, aov, block_shapes),
-          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov, surface),
+    DrawPasses(bool aov, bool block_shapes, bool surface, bool land)
+        : terrain(aov, land), blades(aov),
+          shells(shells::FarPass::Family::kShells, aov, block_shapes),
+          slices(shells::FarPass::Family::kSlices, aov, block_shapes), march(aov, surface, land),
           screen(aov), meshes(aov) {}
     terrain::TerrainPass terrain;
     blades::DrawPass blades;

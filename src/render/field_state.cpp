@@ -147,7 +147,8 @@ FieldState::FieldState(World inputs)
 DrawPasses& FieldState::passes(bool aov) {
     auto& slot = aov ? aov_passes_ : plain_passes_;
     if (!slot) {
-        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh());
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh(),
+                                            ground->land_frame.x > 0);
     }
     return *slot;
 }

@@ -89,7 +89,7 @@ void Frame::select_blocks() {
     terrain::Detail detail = shot_.detail;
     blocks_ = terrain::visible_blocks(
         v_.clipmap, f_.surface, terrain::Frustum(shot_.constants.clip_from_world), shot_.anchor,
-        {shot_.constants.eye, f_.world.grass.canopy_m}, detail);
+        {shot_.constants.eye, f_.world.grass.canopy_m * shot_.constants.land_highest}, detail);
     fine_ = detail.on();
     if (fine_) {
         v_.clipmap.bind_posts({shot_.anchor.x, shot_.anchor.z}, detail);
@@ -139,7 +139,8 @@ void Frame::select_blades() {
     const auto tiles = blades::select_tiles(
         f_.world.grass, f_.surface, terrain::Frustum(shot_.constants.clip_from_world),
         {shot_.anchor, shot_.constants.lod_eye, shot_.constants.handover_band,
-         shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr});
+         shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr,
+         shot_.constants.land_highest});
     f_.cull.upload(tiles, v_.blades_considered > 0);
     v_.blades_considered += tiles.considered;
 }

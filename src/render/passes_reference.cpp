@@ -45,7 +45,8 @@ void Frame::choose_blades() {
     const auto tiles = blades::select_tiles(
         f_.world.grass, f_.surface, frustum_of_round(shot_),
         {shot_.anchor, shot_.constants.lod_eye, shot_.constants.handover_band,
-         shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr});
+         shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr,
+         shot_.constants.land_highest});
     const int most =
         tiles.items.size() > blades::SampleCull::kMostKept ? 1 : blades::SampleCull::kRound;
     round_begin_ = picture_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -40,6 +42,21 @@ struct Heightfield {
     }
 };
 
+/// Bytes of a texel of DensityMask::land, all linear, so that their means mean something. Shares
+/// are over 255.
+enum LandByte {
+    kLandHeight,  ///< factor on height / kLandMostHeight, times the share that bears grass
+    kLandDryness, ///< 0.5 + dryness / 2
+    kLandWater,   ///< share, as those below; what is left is soil
+    kLandAsphalt,
+    kLandGravel,
+    kLandSand,
+    kLandRock,
+    kLandBare, ///< where no grass can grow
+    kLandBytes
+};
+inline constexpr double kLandMostHeight = 2;
+
 /// Density of the grass, 0..1, over a rectangle of the terrain; texel centres as in an image, row 0
 /// north.
 struct DensityMask {
@@ -50,6 +67,13 @@ struct DensityMask {
     glm::dvec2 size_m{
         0, 0}; ///< of the rectangle; zero: the elevation's, from its first post to its last
     bool bounded = false; ///< no grass outside the rectangle; else its rim goes on
+    /// Of a landcover whose classes say more than a density: kLandBytes a texel, by LandByte; else
+    /// empty.
+    std::vector<std::uint8_t> land{};
+    double highest = 1; ///< greatest factor on height among the classes that bear grass, at least 1
+    bool heights = false; ///< is any of those not 1?
+    std::optional<std::array<std::uint8_t, 9>>
+        outside{}; ///< what goes on beyond the rectangle: density * 255, then as of `land`
     std::map<int, double>
         class_shares{}; ///< of the terrain's area, by class of a landcover; -1: no value there
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -10,6 +11,7 @@
 
 #include <glm/glm.hpp>
 
+#include "scene/land.h"
 #include "scene/surface_grass.h"
 #include "scene/track_spec.h"
 #include "scene/wind_spec.h"
@@ -50,14 +52,24 @@ struct TerrainSpec {
     std::optional<glm::dvec2> size_m;
     std::optional<glm::dvec2> height_m;
     std::filesystem::path mask; ///< empty: the slope rule
-    /// Landcover: the mask's integer values -> density 0..1 (values not listed: 0). Empty: the mask
-    /// is the density.
-    std::map<int, double> classes;
+    /// Landcover: what the mask's integer values stand for (values not listed: nothing on soil).
+    /// Empty: the mask is the density.
+    std::map<int, LandClass> classes;
     double detail_m = 0.5;         ///< amplitude of procedural relief; 0 = none
     std::filesystem::path surface; ///< a mesh instead of elevation; the datum is its own y = 0
     int elevation_band =
         0; ///< of the file's bands, from 1; 0: the first, with a warning where there are more
     int mask_band = 0;
+    std::vector<LandFeature> features{}; ///< burnt over the classes in this order
+    std::optional<LandClass> outside{};  ///< what goes on beyond the mask; none: no grass
+    double classes_mb = 128;             ///< bound of what classes take of the graphics memory
+
+    [[nodiscard]] bool has_mask() const { return !mask.empty() || !features.empty(); }
+    /// Is there more to the land than a density?
+    [[nodiscard]] bool has_land() const {
+        const auto rich = [](const auto& entry) { return !entry.second.plain(); };
+        return !features.empty() || outside || std::any_of(classes.begin(), classes.end(), rich);
+    }
 };
 
 struct GrassSpec {

@@ -9,7 +9,6 @@ namespace sward::scene {
 namespace {
 
 constexpr std::size_t kMostKeys = 10000;
-constexpr int kHighestClass = 65535; // 16-bit landcover
 constexpr int kMostBands = 256;
 
 constexpr int kMostSpheres = 10000; // of one mesh
@@ -61,11 +60,7 @@ void read_terrain(TableReader table, TerrainSpec& terrain) {
     table.integer("mask_band", terrain.mask_band, 1, kMostBands);
     table.number("detail_m", terrain.detail_m, {0, 10, "m"});
     table.path("surface", terrain.surface);
-    if (auto classes = table.table("classes"))
-        for (const auto& [value, density] : classes->integer_keys(kHighestClass, kShare))
-            if (!terrain.classes.emplace(value, density).second) // "1" and "01"
-                throw table.error("classes", fmt::format("{} a second time", value),
-                                  "each class once");
+    read_land(table, terrain);
     table.finish();
     if (terrain.elevation.empty() == terrain.surface.empty())
         throw table.error("", terrain.elevation.empty() ? "neither" : "both",
@@ -74,7 +69,7 @@ void read_terrain(TableReader table, TerrainSpec& terrain) {
         throw table.error("height_m",
                           fmt::format("[{}, {}]", terrain.height_m->x, terrain.height_m->y),
                           "the lower height first");
-    if (!terrain.classes.empty() && terrain.mask.empty())
+    if (!terrain.classes.empty() && !terrain.has_mask())
         throw table.error("classes", "no mask", "terrain.mask beside it");
 }
 

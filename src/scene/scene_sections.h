@@ -9,6 +9,9 @@ namespace sward::scene {
 /// One function a section of the scene file; each refuses the keys it does not know. docs/scene.md
 /// is their table.
 void read_terrain(TableReader table, TerrainSpec& terrain);
+/// The keys of [terrain] that say what its classes stand for, and what is burnt over them. In
+/// land_section.cpp.
+void read_land(TableReader& table, TerrainSpec& terrain);
 void read_grass(TableReader table, GrassSpec& grass);
 /// [surface_grass]: grass on terrain.surface. In surface_section.cpp.
 /// `of_set`: what a set that it names, and its density, are noted in.

@@ -306,8 +306,9 @@ std::vector<std::pair<std::string, TableReader>> TableReader::named_tables(std::
     return all;
 }
 
-std::vector<std::pair<int, double>> TableReader::integer_keys(int high, const Range& range) {
-    std::vector<std::pair<int, double>> all;
+std::vector<std::pair<int, TableReader::NumberOrTable>>
+TableReader::integer_keys(int high, const Range& range) {
+    std::vector<std::pair<int, NumberOrTable>> all;
     for (const auto& [key, node] : *table_) {
         const std::string entry(key.str());
         const char* const end = entry.data() + entry.size();
@@ -318,7 +319,10 @@ std::vector<std::pair<int, double>> TableReader::integer_keys(int high, const Ra
                                     name_ + ": key", in_quotes(entry),
                                     fmt::format("a whole number from 0 to {}", high));
         known_.push_back(entry);
-        all.emplace_back(value, checked(full_name(entry), node, range));
+        if (node.is_table())
+            all.emplace_back(value, TableReader(*node.as_table(), file_, full_name(entry)));
+        else
+            all.emplace_back(value, checked(full_name(entry), node, range));
     }
     return all;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -56,8 +57,9 @@ public:
     std::vector<TableReader> tables(const char* key, std::size_t limit);
     /// Every entry of this table as a table of its own, by name: [camera.NAME].
     std::vector<std::pair<std::string, TableReader>> named_tables(std::size_t limit);
-    /// Every entry as integer = number: [terrain.classes].
-    std::vector<std::pair<int, double>> integer_keys(int high, const Range& range);
+    /// Every entry as integer = number, or as integer = table: [terrain.classes].
+    using NumberOrTable = std::variant<double, TableReader>;
+    std::vector<std::pair<int, NumberOrTable>> integer_keys(int high, const Range& range);
 
     /// Refuses the keys that were never asked for.
     void finish() const;

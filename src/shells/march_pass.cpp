@@ -88,6 +88,9 @@ std::vector<std::string> MarchPass::Variant::with(std::vector<std::string> defin
     if (surface) {
         defines.emplace_back("SURFACE");
     }
+    if (!land) {
+        defines.emplace_back("NO_LAND");
+    }
     if (count) {
         defines.emplace_back("COUNT");
     }
@@ -106,12 +109,12 @@ void MarchPass::Kinds::reload() {
     }
 }
 
-MarchPass::MarchPass(bool aov, bool surface)
+MarchPass::MarchPass(bool aov, bool surface, bool land)
     : canopy_("canopy", canopy_stages(surface)),
       canopy_samples_("canopy's samples", {"shells/canopy.vert"}),
       choose_("march's kinds", {"shells/march.vert", "shells/march_choose.frag"},
-              Variant{false, surface, false, false}.with({})),
-      kinds_({aov, surface, false, false}), aov_(aov), surface_(surface),
+              Variant{false, surface, land, false, false}.with({})),
+      kinds_({aov, surface, land, false, false}), aov_(aov), surface_(surface), land_(land),
       counts_(2 * sizeof(std::uint32_t)) {
     glCreateVertexArrays(1, &vertex_array_);
     glCreateQueries(GL_SAMPLES_PASSED, static_cast<GLsizei>(queries_.size()), queries_.data());
@@ -219,7 +222,7 @@ void MarchPass::choose(const Inputs& inputs) {
         fine_choose_ = std::make_unique<gl::Program>(
             "march's kinds, fine ground",
             std::vector<std::filesystem::path>{"shells/march.vert", "shells/march_choose.frag"},
-            std::vector<std::string>{"FINE_GROUND"});
+            Variant{false, false, land_, false, true}.with({}));
     }
     triangle(inputs.fine ? *fine_choose_ : choose_, inputs, 0);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -243,7 +246,7 @@ const MarchPass::Kinds& MarchPass::kinds_for(const Inputs& inputs) {
     }
     std::unique_ptr<Kinds>& other = others_[which - 1];
     if (!other) {
-        other = std::make_unique<Kinds>(Variant{aov_, surface_, inputs.count, inputs.fine});
+        other = std::make_unique<Kinds>(Variant{aov_, surface_, land_, inputs.count, inputs.fine});
     }
     return *other;
 }

@@ -56,7 +56,7 @@ struct SurfaceTargets {
 class MarchPass {
 public:
     /// `surface`: over a mesh.
-    MarchPass(bool aov, bool surface);
+    MarchPass(bool aov, bool surface, bool land);
     ~MarchPass();
     MarchPass(const MarchPass&) = delete;
     MarchPass& operator=(const MarchPass&) = delete;
@@ -97,7 +97,7 @@ public:
 private:
     /// Of the march's programs. `fine`: ground finer than the clipmap.
     struct Variant {
-        bool aov, surface, count, fine;
+        bool aov, surface, land, count, fine;
         [[nodiscard]] std::vector<std::string> with(std::vector<std::string> defines) const;
     };
     struct Kinds {
@@ -114,7 +114,7 @@ private:
     std::unique_ptr<gl::Program> fine_choose_; ///< with FINE_GROUND, made when first asked for
     Kinds kinds_;
     std::array<std::unique_ptr<Kinds>, 3> others_; ///< counting, fine, both: likewise
-    bool aov_, surface_;
+    bool aov_, surface_, land_;
     gl::Buffer counts_;
     std::uint32_t vertex_array_ = 0;
     std::array<std::uint32_t, 2> queries_{}; ///< samples passed: slabs, columns

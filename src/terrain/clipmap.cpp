@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "shared/bindings.h"
 #include "shared/surface.h"
+#include "terrain/land_textures.h"
 #include "terrain/mask_mips.h"
 
 namespace sward::terrain {
@@ -61,6 +62,8 @@ gl::Texture mask_texture(const scene::DensityMask& mask) {
     }
     texture.set_filter(GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR);
     texture.set_wrap(GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE);
+    if (mask.outside)
+        go_on_with(texture, {static_cast<float>((*mask.outside)[0]) / 255, 0, 0, 0});
     return texture;
 }
 
@@ -75,6 +78,7 @@ gl::Texture level_texture(std::uint32_t format, int levels) {
 
 GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& density)
     : surface(ground), elevation(posts_texture(ground.elevation())), mask(mask_texture(density)),
+      land(land_textures(density)),
       height_program("clipmap height", {"terrain/clipmap_height.comp"}),
       surface_program("clipmap surface", {"terrain/clipmap_surface.comp"}),
       mask_first(density.first_m), mask_size(density.size_m),
@@ -85,6 +89,7 @@ GroundSource::GroundSource(const Surface& ground, const scene::DensityMask& dens
         mask_size = ground.elevation().extent_m();
         mask_first = -0.5 * mask_size;
     }
+    land_frame = land_constants(density, mask_size);
 }
 
 Clipmap::Clipmap(const std::shared_ptr<GroundSource>& source)
@@ -135,6 +140,8 @@ void Clipmap::bind() const {
     heights_.bind(TEX_CLIP_HEIGHT);
     surfaces_.bind(TEX_CLIP_SURFACE);
     source_->mask.bind(TEX_MASK);
+    source_->land[0].bind(TEX_LAND_COVER);
+    source_->land[1].bind(TEX_LAND_GROUND);
 }
 
 void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
@@ -154,6 +161,9 @@ void Clipmap::bind_posts(glm::dvec2 anchor, Detail detail) {
 void Clipmap::describe(shared::FrameConstants& frame, glm::dvec2 anchor) const {
     frame.clip_levels = levels();
     frame.mask_mode = source_->mask_mode;
+    frame.land_texel_m = source_->land_frame.x;
+    frame.land_highest = source_->land_frame.y;
+    frame.land_uneven = source_->land_frame.z;
     frame.mask_offset = glm::vec2((anchor - source_->mask_first) / source_->mask_size);
     frame.mask_per_m = glm::vec2(1.0 / source_->mask_size);
     for (int level = 0; level < levels(); ++level) {

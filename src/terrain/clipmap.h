@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -24,9 +25,11 @@ struct GroundSource {
     GroundSource(const Surface& surface, const scene::DensityMask& mask);
     const Surface& surface;
     gl::Texture elevation, mask;
+    std::array<gl::Texture, 2> land; ///< LandByte 0 to 3, 4 to 7
     gl::Program height_program, surface_program;
     glm::dvec2 mask_first, mask_size; ///< world metres
     int mask_mode;                    ///< kMask*
+    glm::vec4 land_frame; ///< FrameConstants: land_texel_m, land_highest, land_uneven; unused
 };
 
 /// The ground around the eye as nested grids (geometry clipmap, Losasso & Hoppe 2004): level k has

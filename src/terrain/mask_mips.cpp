@@ -45,6 +45,38 @@ std::vector<float> next_mip(const std::vector<float>& texels, glm::ivec2& size) 
     return mip;
 }
 
+std::vector<std::uint8_t> next_mip(const std::vector<std::uint8_t>& texels, glm::ivec2& size) {
+    constexpr std::size_t kChannels = 4;
+    const glm::ivec2 half = glm::max(size / 2, glm::ivec2(1));
+    std::vector<std::uint8_t> mip(static_cast<std::size_t>(half.x) *
+                                  static_cast<std::size_t>(half.y) * kChannels);
+    std::uint8_t* out = mip.data();
+    for (int y = 0; y < half.y; ++y) {
+        const auto down = shares(y, size.y);
+        for (int x = 0; x < half.x; ++x) {
+            const auto along = shares(x, size.x);
+            std::array<float, kChannels> sum{0.5f, 0.5f, 0.5f, 0.5f}; // to the nearest byte
+            for (int v = 0; v < 3; ++v)
+                for (int u = 0; u < 3; ++u) {
+                    const float weight =
+                        down[static_cast<std::size_t>(v)] * along[static_cast<std::size_t>(u)];
+                    if (weight <= 0)
+                        continue;
+                    const auto at =
+                        (static_cast<std::size_t>(2 * y + v) * static_cast<std::size_t>(size.x) +
+                         static_cast<std::size_t>(2 * x + u)) *
+                        kChannels;
+                    for (std::size_t channel = 0; channel < kChannels; ++channel)
+                        sum[channel] += weight * static_cast<float>(texels[at + channel]);
+                }
+            for (const float part : sum)
+                *out++ = static_cast<std::uint8_t>(part);
+        }
+    }
+    size = half;
+    return mip;
+}
+
 int mip_count(glm::ivec2 size) {
     int count = 1;
     for (int side = std::max(size.x, size.y); side > 1; side /= 2)

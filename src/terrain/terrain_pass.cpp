@@ -184,10 +184,13 @@ void BlockSamples::execute(const std::vector<VisibleBlock>& blocks, bool fine) {
 
 namespace {
 
-std::vector<std::string> defines_of(bool aov, bool fine) {
+std::vector<std::string> defines_of(bool aov, bool land, bool fine) {
     std::vector<std::string> defines;
     if (aov) {
         defines.emplace_back("AOV");
+    }
+    if (!land) {
+        defines.emplace_back("NO_LAND");
     }
     if (fine) {
         defines.emplace_back("FINE_GROUND");
@@ -197,9 +200,9 @@ std::vector<std::string> defines_of(bool aov, bool fine) {
 
 } // namespace
 
-TerrainPass::TerrainPass(bool aov)
-    : aov_(aov), program_("terrain", {"terrain/terrain.vert", "terrain/terrain.frag"},
-                          defines_of(aov, false)) {}
+TerrainPass::TerrainPass(bool aov, bool land)
+    : aov_(aov), land_(land), program_("terrain", {"terrain/terrain.vert", "terrain/terrain.frag"},
+                                       defines_of(aov, land, false)) {}
 
 void TerrainPass::reload() {
     program_.reload();
@@ -213,7 +216,7 @@ void TerrainPass::execute(int blocks, const BlockMesh& mesh, bool fine) {
         fine_program_ = std::make_unique<gl::Program>(
             "fine terrain",
             std::vector<std::filesystem::path>{"terrain/terrain.vert", "terrain/terrain.frag"},
-            defines_of(aov_, true));
+            defines_of(aov_, land_, true));
     }
     (fine ? *fine_program_ : program_).use();
     glEnable(GL_CULL_FACE);

@@ -70,12 +70,12 @@ private:
 /// Draws the ground. Before: frame constants, clipmap, block samples and far appearance are bound.
 class TerrainPass {
 public:
-    explicit TerrainPass(bool aov);
+    TerrainPass(bool aov, bool land);
     void execute(int blocks, const BlockMesh& mesh, bool fine = false);
     void reload();
 
 private:
-    bool aov_;
+    bool aov_, land_;
     gl::Program program_;
     std::unique_ptr<gl::Program> fine_program_;
 };

@@ -127,9 +127,9 @@ TEST_F(Layout, FrameConstants) {
                      PLACE(shadow_offset),
                      PLACE(shadow_per_m),
                      PLACE(has_shadow),
-                     PLACE(unused_c),
-                     PLACE(unused_d),
-                     PLACE(unused_e)},
+                     PLACE(land_texel_m),
+                     PLACE(land_highest),
+                     PLACE(land_uneven)},
                     sizeof(Struct));
     }
 }

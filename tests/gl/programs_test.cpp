@@ -95,7 +95,8 @@ std::vector<Variant> variants() {
     for (const char* kind : {"COLUMNS", "SLABS"}) {
         for (const char* rays : {"CREST", "PLAIN"}) {
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays}});
-            all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV"}});
+            all.push_back(
+                {{"shells/march.vert", "shells/march.frag"}, {kind, rays, "AOV", "NO_LAND"}});
             all.push_back({{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE"}});
             all.push_back(
                 {{"shells/march.vert", "shells/march.frag"}, {kind, rays, "SURFACE", "AOV"}});
@@ -138,7 +139,7 @@ class Programs : public GlTest {};
 TEST_F(Programs, PassesBuildInBothVariants) {
     for (const bool aov : {false, true})
         for (const bool block_shapes : {false, true})
-            const render::DrawPasses passes(aov, block_shapes, block_shapes);
+            const render::DrawPasses passes(aov, block_shapes, block_shapes, !block_shapes);
     const blades::CullPass cull;
     const terrain::BlockSamples samples;
 }
@@ -278,6 +279,8 @@ TEST_F(Programs, SamplersReadTheUnitsOfTheirNames) {
                                                 {"light_factors", TEX_MARCH_LIGHT},
                                                 {"elevation", TEX_ELEVATION},
                                                 {"mask", TEX_MASK},
+                                                {"land_cover", TEX_LAND_COVER},
+                                                {"land_ground", TEX_LAND_GROUND},
                                                 {"land_shadow", TEX_LAND_SHADOW},
                                                 {"depth_pyramid", TEX_DEPTH_PYRAMID},
                                                 {"levels", TEX_DEPTH_PYRAMID},

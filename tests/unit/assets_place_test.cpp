@@ -25,7 +25,7 @@ protected:
                             const std::map<int, double>& classes = {}) {
         put(dir_ / "mask.tif", tiff.bytes());
         spec_.mask = dir_ / "mask.tif";
-        spec_.classes = classes;
+        spec_.classes = {classes.begin(), classes.end()};
         return load_mask(spec_, ground);
     }
     TempDir dir_;

@@ -158,7 +158,7 @@ far_end_m = 400
     EXPECT_EQ(scene.terrain.elevation, dir_ / "dem/height.png");
     EXPECT_EQ(*scene.terrain.size_m, glm::dvec2(4000, 3000.5));
     EXPECT_EQ(*scene.terrain.height_m, glm::dvec2(-10, 300));
-    EXPECT_EQ(scene.terrain.classes, (std::map<int, double>{{10, 1.0}, {20, 0.25}}));
+    EXPECT_EQ(scene.terrain.classes, (std::map<int, LandClass>{{10, 1.0}, {20, 0.25}}));
     EXPECT_EQ(scene.grass.set, "sets/reed");
     EXPECT_EQ(scene.grass.density, 0.75);
     EXPECT_EQ(scene.sun.elevation_deg, -4);
