@@ -123,7 +123,9 @@ class Machines(CliCase):
         early.display.tap(early.window, "w")  # the master flies
         for seat in (early, late):
             self.assertTrue(seat.comes_to(wanted), seat.folder.name)
-        self.assertEqual(sum("follows" in line for line in master.said), 2, master.said)
+        # On a busy machine one may be silent for so long that it is gone, and comes again.
+        came = {line.split()[-2] for line in master.said if "follows" in line}
+        self.assertEqual(len(came), 2, master.said)
         for seat in (late, early, master):
             seat.end()
             self.assertFalse(any("error: " in line for line in seat.said), seat.said)
