@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,7 +43,11 @@ public:
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!aeroplane_) // the land is the same for all of a flight
-            aeroplane_.emplace(spec_, fly::FlyLand{moment.land.height, moment.land.wind});
+            aeroplane_.emplace(spec_,
+                               fly::FlyLand{moment.land.height,
+                                            [this, wind = moment.land.wind](double x, double z) {
+                                                return wind_beside_wash(wind, {x, z});
+                                            }});
         if (!told_ || *told_ != pose.pose.position) // a camera's key, or the beginning
             begin(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
         for (const Press& press : moment.input.presses) {
@@ -130,6 +135,15 @@ public:
     }
 
 private:
+    /// The wind without its own propeller's wash, which blows between the two places.
+    [[nodiscard]] glm::dvec2 wind_beside_wash(const std::function<glm::dvec2(double, double)>& wind,
+                                              glm::dvec2 at) const {
+        if (!blows_)
+            return wind(at.x, at.y);
+        const glm::dvec3 right = aeroplane_->state().turn * glm::dvec3(spec_.span_m, 0, 0);
+        return (wind(at.x + right.x, at.y + right.z) + wind(at.x - right.x, at.y - right.z)) / 2.0;
+    }
+
     void begin(const scene::Pose& pose, double ground) {
         stick_ = {0, 0, 0};
         if (pose.position.y - ground > kNearGround_m) {

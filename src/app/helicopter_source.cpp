@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,7 +32,8 @@ constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -10;
 constexpr double kBallRadius_m = 0.15; // along a skid, as the grass feels it
 constexpr double kTailGear = 6;        // turns of the tail rotor in one of the main rotor
 constexpr double kBlowsBelow_m = 50, kBlowsStill_m = 60; // higher, no blade feels it
-constexpr double kLeastThrust = 0.1;                     // of the weight
+constexpr double kAround = 3;        // radii from where the downwash lands: past its ring
+constexpr double kLeastThrust = 0.1; // of the weight
 constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
 
 class HelicopterSource : public PoseSource {
@@ -40,7 +42,10 @@ public:
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!model_) // the land is the same for all of a flight
-            model_.emplace(spec_, fly::FlyLand{moment.land.height, moment.land.wind});
+            model_.emplace(spec_, fly::FlyLand{moment.land.height,
+                                               [this, wind = moment.land.wind](double x, double z) {
+                                                   return wind_above_wash(wind, {x, z});
+                                               }});
         if (!told_ || *told_ != pose.pose.position) // a camera's key, or the beginning
             begin(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
         for (const Press& press : moment.input.presses)
@@ -95,8 +100,7 @@ public:
         Blower blower;
         blower.kind = Blower::Kind::kRotor;
         blower.velocity = over;
-        blower.place =
-            glm::dvec2(state.position.x, state.position.z) - over * (height_m_ / (2 * down));
+        blower.place = glm::dvec2(state.position.x, state.position.z) - wash_m_;
         blower.speed_mps = 2 * down * down / std::hypot(down, speed);
         blower.radius_m = spec_.rotor.radius_m;
         blower.height_m = height_m_;
@@ -129,6 +133,22 @@ public:
     }
 
 private:
+    /// The wind is the ground's, where its own downwash flows out to all sides, below it: what is
+    /// the same on four sides of that is the wind that it flies in.
+    [[nodiscard]] glm::dvec2 wind_above_wash(const std::function<glm::dvec2(double, double)>& wind,
+                                             glm::dvec2 at) const {
+        if (!blows_)
+            return wind(at.x, at.y);
+        glm::dvec2 sum(0);
+        const double away = kAround * spec_.rotor.radius_m;
+        for (const glm::dvec2& side : {glm::dvec2(away, 0), glm::dvec2(-away, 0),
+                                       glm::dvec2(0, away), glm::dvec2(0, -away)}) {
+            const glm::dvec2 there = at - wash_m_ + side;
+            sum += wind(there.x, there.y);
+        }
+        return sum / 4.0;
+    }
+
     void act(const Press& press) {
         if (press.action == Action::kDriveCamera) {
             camera_ = (camera_ + 1) % kCameras.size();
@@ -174,6 +194,8 @@ private:
         const fly::HelicopterState state = model_->state();
         height_m_ = std::max(0.0, state.position.y + spec_.hub_m -
                                       land.height(state.position.x, state.position.z));
+        wash_m_ = glm::dvec2(state.velocity_mps.x, state.velocity_mps.z) *
+                  (height_m_ / (2 * std::max(0.5, state.inflow_mps)));
         blows_ = height_m_ < (blows_ ? kBlowsStill_m : kBlowsBelow_m) &&
                  state.thrust_n > kLeastThrust * spec_.mass_kg * 9.81;
     }
@@ -197,6 +219,7 @@ private:
     glm::dvec3 stick_{0};                ///< as the keys have it: roll, pitch, yaw
     ModelEye eye_;
     double lever_ = 0, height_m_ = 0; ///< of the hub over the ground
+    glm::dvec2 wash_m_{0};            ///< how far behind the hub the downwash comes to the ground
     bool engine_ = true, blows_ = false;
 };
 

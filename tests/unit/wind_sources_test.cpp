@@ -505,28 +505,5 @@ TEST_F(Solids, MeshesNeedAHeightThatMeetsThem) {
     EXPECT_GT(bounds.w, 4);
 }
 
-TEST(Sources, WhatAHostMovesIsOnItsStraightLine) {
-    ForceList list = list_of({}, {source(Source::Kind::kFan, 4, 2)});
-    scene::MovingWindSource wake;
-    wake.source = source(Source::Kind::kWake, 12, 1.5);
-    wake.source.where.place = {100, -20};
-    wake.source.where.yaw_deg = 90;
-    wake.source.length_m = 30;
-    wake.velocity_mps = {12, 0};
-    wake.time_s = 5;
-    list.set_moving({wake});
-    const auto forces = list.at(4.5, {10, 0}, 0.5);
-    ASSERT_EQ(forces.size(), 2u); // the scene's first
-    EXPECT_EQ(forces[0].kind, shared::kForceRing);
-    EXPECT_EQ(forces[1].kind, shared::kForceWake);
-    EXPECT_NEAR(forces[1].place.x, 100 - 6 - 10, 1e-4) << "half a second before";
-    EXPECT_NEAR(forces[1].place.y, -20, 1e-4);
-    EXPECT_NEAR(forces[1].along.x, 1, 1e-6);
-    EXPECT_EQ(forces[1].speed_mps, 12);
-    list.set_moving({});
-    EXPECT_EQ(list.at(4.5, {10, 0}, 0.5).size(), 1u);
-    EXPECT_FALSE(list.empty());
-}
-
 } // namespace
 } // namespace sward::wind
