@@ -37,7 +37,7 @@ struct HelicopterSpec {
     double hub_knm = 10;        ///< moment of the hub a radian of the disc's tilt
     double lock = 8;            ///< of the blades: how fast they follow
     double cyclic_deg = 9;      ///< of the disc, at full stick
-    double power_kw = 153;      ///< of the engine
+    double power_kw = 165;      ///< of the engine
     double transmission = 0.92; ///< share of it that comes to the rotor; the tail takes the rest
     double tail_m = 5.9;        ///< tail rotor behind the centre of mass
     double tail_kn = 1.2;       ///< that it pushes at most
