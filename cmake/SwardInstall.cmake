@@ -7,7 +7,7 @@ set(SWARD_DATA "${CMAKE_INSTALL_DATADIR}/sward")
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/sward")
 
 install(TARGETS sward_library EXPORT swardTargets ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(FILES src/sward/camera.h src/sward/error.h src/sward/field.h src/sward/log.h src/sward/view.h
+install(FILES src/sward/blower.h src/sward/camera.h src/sward/error.h src/sward/field.h src/sward/log.h src/sward/view.h
               "${PROJECT_BINARY_DIR}/include/sward/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sward")
 install(DIRECTORY shaders DESTINATION "${SWARD_DATA}")

@@ -242,7 +242,7 @@ void simulate(const Shot& shot, const Look& look, const std::vector<Screen>& scr
         return;
     }
     if (!steps)
-        steps.emplace(field, limits);
+        steps.emplace(field, limits, shot.record->start_s);
     steps->follow(*shot.record, look.time_s);
 }
 

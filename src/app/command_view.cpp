@@ -13,6 +13,7 @@
 #include "app/fly_source.h"
 #include "app/io.h"
 #include "app/joystick_list.h"
+#include "app/lead_links.h"
 #include "app/load_screen.h"
 #include "app/paths.h"
 #include "app/pose_source.h"
@@ -29,6 +30,8 @@
 
 namespace sward::app {
 namespace {
+
+constexpr double kAwait_s = 0.03; // between two looks for the master's answer
 
 scene::Scene first_scene(const Options& options) {
     return open_scene(options.scene.empty() ? default_scene() : options.scene);
@@ -70,7 +73,13 @@ public:
     explicit Viewer(const Options& options)
         : options_(options), channels_(options.channels.empty() ? std::vector<Channel>{}
                                                                 : read_channels(options.channels)),
-          record_(record_of(options)), links_(open_feed(options)), devices_(load_device_controls()),
+          record_(record_of(options)), links_(open_feed(options)),
+          lead_(options.master ? std::make_unique<LeadLink>(*options.master) : nullptr),
+          follow_(options.follow
+                      ? std::make_unique<FollowLink>(
+                            *options.follow, channels_.empty() ? "" : channels_.front().name)
+                      : nullptr),
+          devices_(load_device_controls()),
           window_("Sward", place_of(options, channels_), options.debug_gl),
           panel_(window_.handle()) {
         gl::require_gl45();
@@ -90,15 +99,15 @@ public:
                 word.clear();
                 before = std::move(scene);
             } catch (const base::Error& error) {
-                if (!before)
+                if (!before || follow_)
                     throw;
                 word = error.what();
             } catch (const Error& error) { // of the library's face
-                if (!before)
+                if (!before || follow_)
                     throw;
                 word = error.what();
             } catch (const AlreadyReported&) {
-                if (!before)
+                if (!before || follow_)
                     throw;
                 word = fmt::format("{}: its grass set could not be baked", scene.file.string());
             }
@@ -118,6 +127,8 @@ private:
                                      const std::string& word) {
         if (options_.density)
             scene.grass.density = *options_.density;
+        if (follow_)
+            await_master(scene);
         scene::Pose start = find_camera(scene, camera);
         LoadScreen screen(window_, panel_, scene_title(scene));
         window_.forget_keys();
@@ -132,6 +143,8 @@ private:
                 ? std::make_unique<ReplaySource>(*record_)
                 : make_pose_source(options_, {links_, on_earth,
                                               links_.out ? grass_share_of(world) : GrassShare()});
+        if (lead_)
+            lead_->begin(flight_of(scene));
         source->add_objects(world);
         Field field = build(std::move(world), screen);
         if (options_.exit_after == 0)
@@ -140,8 +153,42 @@ private:
         if (!options_.record.empty())
             writer.emplace(options_.record, scene.file.string(), options_.time_s);
         Flight flight({options_, scene, channels_, start, latitude, window_, panel_, field, *source,
-                       word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr});
+                       word, record_ ? &*record_ : nullptr, writer ? &*writer : nullptr,
+                       lead_.get(), follow_.get()});
         return flight.run();
+    }
+
+    /// What followers begin with.
+    [[nodiscard]] feed::LeadStart flight_of(const scene::Scene& scene) const {
+        const scene::WindSpec& wind = scene.wind;
+        return {record_ ? record_->start_s : options_.time_s,
+                scene.grass.density,
+                wind.seed,
+                scene_digest(scene.file),
+                {scene.sun.azimuth_deg, scene.sun.elevation_deg},
+                {wind.speed_mps, wind.direction_deg, wind.gust}};
+    }
+
+    /// Until it answers; then the scene begins as its does. Throws Stopped.
+    void await_master(scene::Scene& scene) {
+        if (follow_->follower().left())
+            follow_->follower().begin_again();
+        LoadScreen screen(window_, panel_, scene_title(scene));
+        for (; !follow_->follower().start(); follow_->exchange(kAwait_s)) {
+            screen.show("waiting for the master at " + follow_->address());
+            if (window_.asked_to_end())
+                throw Stopped{};
+        }
+        const feed::LeadStart& start = *follow_->follower().start();
+        if (start.scene != scene_digest(scene.file))
+            base::log_warning("--follow: the master has another scene, or another version of this "
+                              "program: pictures may differ");
+        scene.wind.seed = start.seed;
+        scene.wind.speed_mps = start.wind.speed_mps;
+        scene.wind.direction_deg = start.wind.direction_deg;
+        scene.wind.gust = start.wind.gust;
+        scene.sun = {start.sun.azimuth_deg, start.sun.elevation_deg};
+        scene.grass.density = start.density;
     }
 
     static Field build(render::World world, LoadScreen& screen) {
@@ -157,6 +204,8 @@ private:
     std::optional<FlightRecord> record_; ///< --replay
     // Before the window: a port in use or a wrong file is told of first.
     FeedLinks links_;
+    std::unique_ptr<LeadLink> lead_;
+    std::unique_ptr<FollowLink> follow_;
     input::ControlMap devices_;
     Window window_;
     Panel panel_;

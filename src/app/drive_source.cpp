@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
@@ -25,6 +26,8 @@ namespace {
 constexpr double kChaseBack = 1.4, kChaseUp_m = 1.5; // of the vehicle's length; over its roof
 constexpr double kChaseFollow_per_s = 4;             // how fast the chase camera comes round
 constexpr double kChasePitch_deg = -9;
+constexpr double kWakeFrom_mps = 2; // slower, no blade feels its wake
+constexpr double kWakeRadii = 40;   // how long that is
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
 constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
 
@@ -92,6 +95,30 @@ public:
                 balls.push_back({state.position + state.turn * at, radius});
             }
         return balls;
+    }
+
+    /// The air that it drags along.
+    [[nodiscard]] std::vector<Blower> blowers() const override {
+        if (!vehicle_)
+            return {};
+        const drive::VehicleState state = vehicle_->state();
+        const glm::dvec2 over(state.velocity_mps.x, state.velocity_mps.z);
+        const double speed = glm::length(over);
+        if (speed < kWakeFrom_mps)
+            return {};
+        Blower blower;
+        blower.kind = Blower::Kind::kWake;
+        const glm::dvec3 ahead = state.ahead();
+        const double side = glm::dot(over, glm::dvec2(ahead.x, ahead.z)) < 0 ? -1 : 1;
+        const glm::dvec3 end = state.position - ahead * (side * spec_.size_m.z / 2);
+        blower.place = {end.x, end.z};
+        blower.velocity = over;
+        blower.yaw_deg = glm::degrees(std::atan2(over.x, -over.y));
+        blower.speed_mps = std::min(speed, 300.0);
+        // As wide as a disc of that drag is.
+        blower.radius_m = std::max(0.3, std::sqrt(spec_.drag_m2 / glm::pi<double>()));
+        blower.length_m = kWakeRadii * blower.radius_m;
+        return {blower};
     }
 
     void add_objects(render::World& world) override {

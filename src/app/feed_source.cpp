@@ -136,6 +136,7 @@ public:
     }
     [[nodiscard]] bool in_real_time() const override { return source_->in_real_time(); }
     [[nodiscard]] std::vector<Ball> bodies() const override { return source_->bodies(); }
+    [[nodiscard]] std::vector<Blower> blowers() const override { return source_->blowers(); }
     void add_objects(render::World& world) override { source_->add_objects(world); }
     [[nodiscard]] std::vector<Body> objects() const override { return source_->objects(); }
     [[nodiscard]] std::optional<double> speed_mps() const override { return source_->speed_mps(); }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "app/lead_links.h"
 #include "app/paths.h"
 #include "app/recent_scenes.h"
 #include "app/view_scene.h"
@@ -33,6 +34,12 @@ bool same(const MeanWind& a, const MeanWind& b) {
     return a.speed_mps == b.speed_mps && a.direction_deg == b.direction_deg && a.gust == b.gust;
 }
 
+/// Simulated time of the first step.
+double begin_of(const FlightParts& parts) {
+    return parts.follow != nullptr ? parts.follow->follower().start().value().start_s
+                                   : parts.options.time_s;
+}
+
 } // namespace
 
 Flight::Flight(const FlightParts& parts)
@@ -44,7 +51,7 @@ Flight::Flight(const FlightParts& parts)
       arrows_(parts.scene.wind.arrows, parts.scene.file), weather_(parts.scene, parts.latitude_deg),
       settings_(options_.frame), pose_{above_datum(parts.start)}, gpu_(gl::context_info().renderer),
       cameras_(camera_names(parts.scene)), recent_(read_recent(recent_file())),
-      sampler_(options_.time_s), before_(pose_.pose.position), last_(Clock::now()) {
+      sampler_(begin_of(parts)), before_(pose_.pose.position), last_(Clock::now()) {
     for (std::size_t i = 0; i < std::max<std::size_t>(1, parts.channels.size()); ++i)
         views_.emplace_back(field_);
     say(parts.word);
@@ -67,12 +74,17 @@ std::optional<scene::Scene> Flight::run() {
         for (const Press& press : input.presses)
             act(press);
         arrows_.act(input);
+        if (parts_.follow != nullptr && !follow(input)) {
+            --frame; // not drawn
+            continue;
+        }
         const double elapsed = seconds_since(last_);
         last_ = Clock::now();
         if (frame > 0)
             times_.add(elapsed * 1000);
         frame_ms_ = elapsed * 1000;
-        advance(input, elapsed);
+        if (parts_.follow == nullptr)
+            advance(input, elapsed);
         draw(size, input);
         // What is to be seen in a picture waits until there is one.
         if (input.has(Action::kScreenshot))
@@ -80,6 +92,7 @@ std::optional<scene::Scene> Flight::run() {
         if (sequence_)
             add_to_sequence();
         present();
+        tell_master();
         if (const auto dropped = window_.take_dropped())
             consider(*dropped);
     }
@@ -115,40 +128,6 @@ void Flight::measure_speed(const SimClock::Tick& tick) {
         speed_mps_ += (glm::length(way) / dt - speed_mps_) * std::min(1.0, dt / kSpeedFade_s);
 }
 
-/// A flight that is kept, or shown again, is simulated by its steps, however many fall into a
-/// picture: its pictures are then the same whatever their rate. Any other one is simulated once a
-/// picture, and no more than a slow machine can.
-void Flight::simulate(const std::vector<Camera>& cameras, const Input& input) {
-    if (const std::vector<Ball> bodies = source_.bodies(); !bodies.empty())
-        field_.set_colliders(bodies, clock_.time_s());
-    if (const std::vector<Body> objects = source_.objects(); !objects.empty())
-        field_.set_objects(objects, clock_.time_s());
-    const SimulationLimits limits = render::limits_of(settings_);
-    if (parts_.record == nullptr && parts_.replay == nullptr) {
-        std::vector<glm::dvec3> eyes;
-        for (const Camera& camera : cameras)
-            eyes.push_back(eye_of(camera));
-        field_.simulate(clock_.time_s(), eyes, limits);
-        return;
-    }
-    if (!steps_)
-        steps_.emplace(field_, limits);
-    if (parts_.replay != nullptr) {
-        steps_->follow(*parts_.replay, clock_.time_s());
-        return;
-    }
-    RecordStep asked;
-    asked.move = input.move;
-    asked.look_px = input.look_px;
-    asked.wheel = input.wheel;
-    const std::size_t first = sampler_.count();
-    const std::vector<RecordStep> steps = sampler_.up_to(clock_.time_s(), pose_, asked);
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-        parts_.record->add(steps[i]);
-        steps_->step(sampler_.time_of(first + i), steps[i].position);
-    }
-}
-
 std::string Flight::line() const {
     CockpitFacts facts;
     facts.speed_mps = source_.speed_mps().value_or(speed_mps_);
@@ -163,11 +142,13 @@ std::string Flight::line() const {
     facts.hour = hour_text(weather_.hour);
     facts.paused = clock_.paused();
     facts.rate = clock_.rate();
-    facts.note = source_.note();
+    facts.note = note();
     return cockpit_line(facts);
 }
 
 void Flight::act(const Press& press) {
+    if (leave_to_master(press.action))
+        return say("the master flies");
     switch (press.action) {
     case Action::kPause:
         clock_.toggle_pause();
@@ -236,16 +217,12 @@ void Flight::act_on_view(const Press& press) {
 }
 
 void Flight::set_weather(const Weather& wanted) {
-    if (wanted.hour != weather_.hour) {
-        field_.set_sun(wanted.sun());
-        if (parts_.record != nullptr)
-            parts_.record->add(wanted.sun());
-    }
-    if (!same(wanted.wind, weather_.wind)) {
-        field_.set_wind(wanted.wind);
-        if (parts_.record != nullptr)
-            parts_.record->add(wanted.wind);
-    }
+    if (parts_.follow != nullptr)
+        return; // the master's
+    if (wanted.hour != weather_.hour)
+        change(wanted.sun());
+    if (!same(wanted.wind, weather_.wind))
+        change(wanted.wind);
     weather_ = wanted;
 }
 
@@ -325,8 +302,9 @@ void Flight::reload() {
 
 /// A scene that cannot be read is told of, and the flight goes on.
 void Flight::consider(const std::filesystem::path& scene) {
-    if (parts_.record != nullptr || parts_.replay != nullptr) {
-        say("a record is of one scene: another one is not opened meanwhile");
+    if (by_steps() || parts_.follow != nullptr) {
+        say("a record is of one scene, and so is what followers see: another one is not opened "
+            "meanwhile");
         return;
     }
     try {

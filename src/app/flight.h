@@ -28,6 +28,9 @@ namespace sward::app {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
+class LeadLink;
+class FollowLink;
+
 /// What a flight is made of; all of it outlives the flight.
 struct FlightParts {
     const Options& options;
@@ -43,6 +46,8 @@ struct FlightParts {
     std::string word;                     ///< shown at first; empty: none
     const FlightRecord* replay = nullptr; ///< what `source` shows, where it is a record
     RecordWriter* record = nullptr;       ///< what the flight is kept in, where it is
+    LeadLink* lead = nullptr;             ///< to those that follow it, where some may
+    FollowLink* follow = nullptr;         ///< to its master, where it has one
 };
 
 /// One scene on the screen: what the keys, the panel and the clock change from frame to frame.
@@ -66,6 +71,16 @@ private:
     [[nodiscard]] std::vector<Camera> cameras(glm::ivec2 size) const;
     void draw_views(const std::vector<Camera>& cameras, glm::ivec2 size);
     void simulate(const std::vector<Camera>& cameras, const Input& input);
+    [[nodiscard]] bool by_steps() const;
+    [[nodiscard]] RecordedTime& steps();
+    void change(const std::variant<Sun, MeanWind>& what);
+    void place(feed::LedFrame& frame);
+    [[nodiscard]] std::vector<feed::LedFrame> plan(const Input& input);
+    void see_as(const feed::LedFrame& frame);
+    [[nodiscard]] bool follow(const Input& input);
+    [[nodiscard]] bool leave_to_master(Action action);
+    void tell_master();
+    [[nodiscard]] std::string note() const;
     void take_breath();
     void present();
     void draw_overlays();
@@ -102,14 +117,18 @@ private:
     std::vector<std::string> cameras_, messages_;
     std::vector<std::filesystem::path> recent_;
     std::optional<PictureSequence> sequence_;
-    std::optional<RecordedTime> steps_; ///< of a flight that is kept, or was
+    std::optional<RecordedTime> steps_; ///< of a flight that goes by steps
     StepSampler sampler_;
+    std::vector<feed::LedChange> changes_; ///< of the weather, that the next step begins with
+    feed::LedFrame placed_;                ///< what the source moves, as the field last heard of it
+    bool blew_ = false;
+    std::optional<std::uint32_t> seen_; ///< the master's frame that is drawn
     std::optional<scene::Scene> next_;
     std::string word_;
     bool flow_ = false, line_ = true;
     double speed_mps_ = 0, frame_ms_ = 0;
     glm::dvec3 before_{0}; ///< where the eye was in the picture before
-    Clock::time_point last_, drawing_, counted_{}, said_;
+    Clock::time_point last_, drawing_, drawn_{}, counted_{}, said_;
 };
 
 } // namespace sward::app

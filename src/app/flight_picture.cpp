@@ -9,6 +9,7 @@
 
 #include "app/flight.h"
 #include "app/flow_overlay.h"
+#include "app/lead_links.h"
 #include "app/load_screen.h"
 #include "app/view_scene.h"
 #include "gl/breath.h"
@@ -81,6 +82,8 @@ void Flight::draw(glm::ivec2 size, const Input& input) {
 /// and may be ended.
 void Flight::take_breath() {
     window_.listen();
+    if (parts_.follow != nullptr)
+        parts_.follow->exchange(0);
     if (seconds_since(drawing_) < kLong_s)
         return;
     // The passes so far, waited for in pieces: else the last one would wait for all of them, deaf.
@@ -102,7 +105,7 @@ void Flight::present() {
     PanelEdits edits{settings_, clock_, wanted};
     panel_.begin();
     draw_overlays();
-    panel_.draw(edits, {stats_, pose_.pose, ground(), source_.note(), frame_ms_, gpu_, cameras_});
+    panel_.draw(edits, {stats_, pose_.pose, ground(), note(), frame_ms_, gpu_, cameras_});
     if (line_)
         Panel::draw_line(line());
     panel_.draw_help();
@@ -112,6 +115,8 @@ void Flight::present() {
         Panel::draw_word(word_);
     panel_.end();
     window_.swap();
+    if (parts_.follow != nullptr)
+        return;
     set_weather(wanted);
     if (edits.camera)
         go_to_camera(*edits.camera);

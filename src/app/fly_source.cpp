@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
@@ -30,6 +32,9 @@ constexpr double kThrottleStep = 0.05;
 constexpr double kChaseBack = 1.9, kChaseUp = 0.35; // of its length
 constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -8;
 constexpr double kBallRadius_m = 0.3; // of a wheel, as the grass feels it
+constexpr double kAir = 1.225;        // kg/m3
+constexpr double kWashRadii = 8;   // how long the propeller's wash is, and how far it reaches down
+constexpr double kWashBelow_m = 8; // higher, no blade feels it
 constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
 
 class FlySource : public PoseSource {
@@ -38,7 +43,11 @@ public:
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!aeroplane_) // the land is the same for all of a flight
-            aeroplane_.emplace(spec_, fly::FlyLand{moment.land.height, moment.land.wind});
+            aeroplane_.emplace(spec_,
+                               fly::FlyLand{moment.land.height,
+                                            [this, wind = moment.land.wind](double x, double z) {
+                                                return wind_beside_wash(wind, {x, z});
+                                            }});
         if (!told_ || *told_ != pose.pose.position) // a camera's key, or the beginning
             begin(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
         for (const Press& press : moment.input.presses) {
@@ -53,6 +62,9 @@ public:
         }
         throttle_ = std::clamp(throttle_ + kThrottleStep * moment.input.wheel, 0.0, 1.0);
         aeroplane_->advance(moment.dt_s, stick_of(moment));
+        const fly::AeroplaneState state = aeroplane_->state();
+        height_m_ = state.position.y - moment.land.height(state.position.x, state.position.z);
+        blows_ = height_m_ < kWashBelow_m && state.pull_n > 0;
         eye_.look_aside(moment.input.look_px);
         place_eye(pose, moment);
         told_ = pose.pose.position;
@@ -87,6 +99,28 @@ public:
         return balls;
     }
 
+    /// The propeller's wash, where it comes to the ground.
+    [[nodiscard]] std::vector<Blower> blowers() const override {
+        if (!aeroplane_ || !blows_)
+            return {};
+        const fly::AeroplaneState state = aeroplane_->state();
+        const glm::dvec3 ahead = state.ahead();
+        const double area = glm::pi<double>() * spec_.propeller_m * spec_.propeller_m / 4;
+        const double speed = std::max(0.0, glm::dot(state.velocity_mps, ahead));
+        // Momentum theory: what a disc that pulls so adds to the air behind it.
+        const double wash = std::sqrt(speed * speed + 2 * state.pull_n / (kAir * area)) - speed;
+        const glm::dvec3 begin = state.position + ahead * (0.35 * spec_.length_m);
+        Blower blower;
+        blower.kind = Blower::Kind::kJet;
+        blower.place = {begin.x, begin.z};
+        blower.velocity = {state.velocity_mps.x, state.velocity_mps.z};
+        blower.yaw_deg = angles_of(state.turn).yaw + 180;
+        blower.radius_m = spec_.propeller_m / 2;
+        blower.speed_mps = wash * std::clamp(1 - height_m_ / kWashBelow_m, 0.0, 1.0);
+        blower.length_m = kWashRadii * spec_.propeller_m;
+        return {blower};
+    }
+
     void add_objects(render::World& world) override {
         first_ = world.scene.objects.size();
         add_model_mesh(world, "aircraft/whole", fly::aeroplane_mesh(spec_), {0.62, 0.62, 0.6});
@@ -101,6 +135,15 @@ public:
     }
 
 private:
+    /// The wind without its own propeller's wash, which blows between the two places.
+    [[nodiscard]] glm::dvec2 wind_beside_wash(const std::function<glm::dvec2(double, double)>& wind,
+                                              glm::dvec2 at) const {
+        if (!blows_)
+            return wind(at.x, at.y);
+        const glm::dvec3 right = aeroplane_->state().turn * glm::dvec3(spec_.span_m, 0, 0);
+        return (wind(at.x + right.x, at.y + right.z) + wind(at.x - right.x, at.y - right.z)) / 2.0;
+    }
+
     void begin(const scene::Pose& pose, double ground) {
         stick_ = {0, 0, 0};
         if (pose.position.y - ground > kNearGround_m) {
@@ -147,13 +190,14 @@ private:
     std::size_t camera_ = 0, first_ = 0; ///< of its objects in the scene
     glm::dvec3 stick_{0};                ///< as the keys have it: roll, pitch, yaw
     ModelEye eye_;
-    double throttle_ = 0;
+    double throttle_ = 0, height_m_ = 0; ///< over the ground
+    bool blows_ = false;
 };
 
 } // namespace
 
-fly::AeroplaneSpec find_aircraft(const std::string& name) {
-    return fly::load_aeroplane(find_model("--fly", aircraft_directory(), name));
+fly::AircraftSpec find_aircraft(const std::string& name) {
+    return fly::load_aircraft(find_model("--fly", aircraft_directory(), name));
 }
 
 std::unique_ptr<PoseSource> make_fly_source(const fly::AeroplaneSpec& spec) {

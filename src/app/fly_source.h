@@ -4,12 +4,12 @@
 #include <memory>
 
 #include "app/pose_source.h"
-#include "fly/aeroplane_spec.h"
+#include "fly/helicopter_spec.h"
 
 namespace sward::app {
 
 /// The aircraft that --fly names: one that ships, or a preset's file. Throws Error.
-[[nodiscard]] fly::AeroplaneSpec find_aircraft(const std::string& name);
+[[nodiscard]] fly::AircraftSpec find_aircraft(const std::string& name);
 
 /// An aeroplane under the keyboard: W and S push and pull the stick, A and D bank, Q and E are the
 /// pedals, U and J the throttle. It begins where the pose stands: flying, or on its wheels where

@@ -47,6 +47,7 @@ enum class Action {
     kWindRight,
     kMoreThrottle,
     kLessThrottle,
+    kEngine,
     kFullScreen,
     kScreenshot,
     kQuit,

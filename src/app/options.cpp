@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only file that includes CLI11. Every value goes through parse.h: CLI11's own conversions
-// follow the locale and let "64px" pass.
+// With options_network.cpp the only file that includes CLI11. Every value goes through parse.h:
+// CLI11's own conversions follow the locale and let "64px" pass.
 #include "app/options.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/io.h"
+#include "app/option_declare.h"
 #include "app/parse.h"
 #include "base/command_line.h"
 
@@ -59,12 +60,6 @@ constexpr NumberRange kWarm{0, 10'000, ""};
 constexpr NumberRange kIndex{0, 4294967295.0, ""};
 constexpr NumberRange kEvery{1e-3, 1e6, "seconds"};
 constexpr NumberRange kExitAfter{1, 1'000'000, ""};
-
-/// One option with a value. `name` as CLI11 takes it: "-o,--output".
-CLI::Option* declare(CLI::App& app, const std::string& name, const std::string& value,
-                     const std::string& help, std::function<void(const std::string&)> parse) {
-    return app.add_option_function<std::string>(name, parse, help)->type_name(value);
-}
 
 void declare_path(CLI::App& app, const std::string& name, const std::string& value,
                   const std::string& help, std::filesystem::path* path) {
@@ -259,23 +254,9 @@ void declare_view(CLI::App& app, Options* o) {
                  "scene file, or directory with scene.toml; default: the one that ships",
                  &o->scene);
     declare_frame_options(app, o);
-    declare(app, "--native-fdm", "udp:[HOST:]PORT",
-            "the eye is where another program's aircraft is: FlightGear's net_fdm, as JSBSim and "
-            "FlightGear send it. Without HOST from this machine alone",
-            [=](const std::string& text) {
-                o->native_fdm = parse_endpoint("--native-fdm", text,
-                                               "udp:PORT or udp:HOST:PORT, such as udp:5550");
-            });
-    declare(app, "--udp-out", "udp:HOST:PORT",
-            "tells a program once a picture the ground's height, what stands on it and the wind, "
-            "under the aircraft",
-            [=](const std::string& text) {
-                o->udp_out =
-                    parse_endpoint("--udp-out", text, "udp:HOST:PORT, such as udp:127.0.0.1:5560");
-                if (o->udp_out->host.empty() || o->udp_out->port == 0)
-                    throw option_error("--udp-out", text,
-                                       "udp:HOST:PORT, such as udp:127.0.0.1:5560");
-            });
+    app.add_flag("--no-wake", o->no_wake,
+                 "what drives and flies moves no air: saves the wind's local window");
+    declare_network(app, o);
     app.add_flag("--list-joysticks", o->list_joysticks,
                  "prints what is plugged in and what controls.toml does with it, and ends");
     declare(app, "--window", "WxH[+X+Y]",
@@ -285,6 +266,8 @@ void declare_view(CLI::App& app, Options* o) {
     declare_path(app, "--record", "FILE",
                  "keeps the flight: inputs, poses, sun and wind at 60 steps a second", &o->record);
     declare_path(app, "--replay", "FILE", "shows a flight that was kept", &o->replay);
+    for (const char* const kept : {"--replay", "--record"})
+        app.get_option(kept)->excludes("--follow");
     app.get_option("--replay")
         ->excludes("--record")
         ->excludes("--camera")

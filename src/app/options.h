@@ -31,7 +31,8 @@ struct WindowPlace {
 };
 
 /// Everything the command line can say, checked as far as that needs no file. Each option is
-/// declared once, in options.cpp; the panel of the viewer edits the same `frame`.
+/// declared once, in options.cpp and options_network.cpp; the panel of the viewer edits the same
+/// `frame`.
 struct Options {
     Command command = Command::kHelp;
     base::Verbosity verbosity = base::Verbosity::kNormal;
@@ -79,11 +80,14 @@ struct Options {
     std::optional<feed::Endpoint>
         native_fdm; ///< where net_fdm comes in that moves the eye; none: no port is open
     std::optional<feed::Endpoint> udp_out; ///< whom to tell what lies under it
+    std::optional<feed::Endpoint> master;  ///< where followers come to; none: no port is open
+    std::optional<feed::Endpoint> follow;  ///< whose flight is drawn
     bool list_joysticks = false;           ///< in the place of a window
     std::filesystem::path record;          ///< written as the flight goes on; empty: none
     std::string drive; ///< a vehicle that ships, or its file; empty: the free camera
     std::string fly;   ///< likewise an aircraft
     drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
+    bool no_wake = false;                          ///< what drives and flies moves no air
     std::optional<WindowPlace> window;             ///< none: of `frame`'s size
     int exit_after = 0;                            ///< frames; 0: until it is closed
 };

@@ -7,6 +7,7 @@
 #include "app/drive_source.h"
 #include "app/feed_source.h"
 #include "app/fly_source.h"
+#include "app/helicopter_source.h"
 
 namespace sward::app {
 namespace {
@@ -29,6 +30,12 @@ private:
     FlyControls controls_;
 };
 
+std::unique_ptr<PoseSource> source_of(const fly::AircraftSpec& aircraft) {
+    if (const auto* const helicopter = std::get_if<fly::HelicopterSpec>(&aircraft))
+        return make_helicopter_source(*helicopter);
+    return make_fly_source(std::get<fly::AeroplaneSpec>(aircraft));
+}
+
 } // namespace
 
 std::unique_ptr<PoseSource> make_pose_source(const Options& options, const SourceParts& parts) {
@@ -38,7 +45,7 @@ std::unique_ptr<PoseSource> make_pose_source(const Options& options, const Sourc
     else if (!options.drive.empty())
         source = make_drive_source(find_vehicle(options.drive), options.tyres);
     else if (!options.fly.empty())
-        source = make_fly_source(find_aircraft(options.fly));
+        source = source_of(find_aircraft(options.fly));
     else
         source = std::make_unique<FreeFlight>();
     if (parts.links.out)

@@ -43,6 +43,8 @@ public:
     /// What pushes the grass aside as it moves, where it stands now; of the same number from
     /// picture to picture. None: nothing.
     [[nodiscard]] virtual std::vector<Ball> bodies() const { return {}; }
+    /// What moves the air as it goes, where it is now. None: nothing.
+    [[nodiscard]] virtual std::vector<Blower> blowers() const { return {}; }
     /// Adds what it shows of itself to a scene, before a field is made of it.
     virtual void add_objects(render::World&) {}
     /// Where those stand now.

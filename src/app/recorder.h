@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "app/flight_record.h"
+#include "feed/led_frame.h"
 #include "sward/field.h"
 
 namespace sward::app {
@@ -30,23 +32,31 @@ private:
     std::size_t next_ = 0;
 };
 
-/// Simulates a field by the steps of a record, each once and in order: what is drawn then depends
-/// on the time alone, not on the pictures before.
+/// Simulates a field by fixed steps, each once and in order: what is drawn then depends on what was
+/// done alone, not on the pictures before.
 class RecordedTime {
 public:
-    /// `limits` as of a picture's settings, but for those on what a frame may cost.
-    RecordedTime(Field& field, const SimulationLimits& limits);
-    /// Does one step, as at `time_s`.
-    void step(double time_s, const glm::dvec3& eye);
-    /// Does the steps of a record up to a time, with what changed before each, that have not been
-    /// done.
+    /// `limits` as of a picture's settings, but for those on what a frame may cost. `start_s`: the
+    /// time of step 0.
+    RecordedTime(Field& field, const SimulationLimits& limits, double start_s);
+    /// Does what a picture does to its field: what moves in it is put where it is, then what
+    /// changed, and the steps.
+    void perform(const feed::LedFrame& frame);
+    /// A record up to a time, as far as it was not taken before: frames of some steps each.
+    [[nodiscard]] std::vector<feed::LedFrame> take_due(const FlightRecord& record, double time_s);
+    /// Takes and performs those.
     void follow(const FlightRecord& record, double time_s);
 
 private:
-    void apply(const RecordEvent& event);
+    void apply(const std::variant<Sun, MeanWind>& change);
+    void place(const feed::LedFrame& frame);
     Field& field_;
     SimulationLimits limits_;
-    std::size_t done_ = 0, events_done_ = 0;
+    double start_s_;
+    std::size_t taken_ = 0, events_taken_ = 0; ///< of a record
 };
+
+/// Frames of no more steps than one may have; what is placed is placed by the first of them.
+[[nodiscard]] std::vector<feed::LedFrame> cut_to_size(feed::LedFrame frame);
 
 } // namespace sward::app

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <netdb.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -25,7 +26,7 @@ namespace {
 
 constexpr std::size_t kMostHost = 253; // bytes: a name of the DNS
 constexpr std::size_t kMostPacket =
-    2048; // more than any packet that is known; what is longer shows by its size
+    12'288; // more than any packet that is known; what is longer shows by its size
 
 struct FreeAddresses {
     void operator()(addrinfo* list) const { freeaddrinfo(list); }
@@ -108,6 +109,45 @@ double age_of(msghdr& message) {
     return 0;
 }
 
+/// Hands over what has come.
+int receive_from(int handle, const std::function<void(const Datagram&)>& take, int most) {
+    std::array<std::byte, kMostPacket> bytes;
+    alignas(cmsghdr) std::array<std::byte, 128> control;
+    for (int count = 0; count < most; ++count) {
+        sockaddr_storage from{};
+        iovec part{bytes.data(), bytes.size()};
+        msghdr message{};
+        message.msg_name = &from;
+        message.msg_namelen = sizeof from;
+        message.msg_iov = &part;
+        message.msg_iovlen = 1;
+        message.msg_control = control.data();
+        message.msg_controllen = control.size();
+        const ssize_t size = recvmsg(handle, &message, 0);
+        if (size < 0 && (errno == EINTR || errno == ECONNREFUSED)) // nobody was there, once
+            continue;
+        if (size < 0) // nothing more; or a network that is gone, which is silence too
+            return count;
+        const std::string_view sender(reinterpret_cast<const char*>(&from), message.msg_namelen);
+        take({std::span(bytes.data(), static_cast<std::size_t>(size)), sender, age_of(message)});
+    }
+    return most;
+}
+
+/// Never waits.
+bool send_to(int handle, std::span<const std::byte> bytes) {
+    // What nobody listened to comes back as ECONNREFUSED of the next one, which has not gone out
+    // then.
+    for (int attempt = 0; attempt < 2; ++attempt) {
+        if (::send(handle, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
+            static_cast<ssize_t>(bytes.size()))
+            return true;
+        if (errno != ECONNREFUSED && errno != EINTR)
+            return false;
+    }
+    return false;
+}
+
 } // namespace
 
 std::optional<Endpoint> parse_endpoint(std::string_view text) {
@@ -154,27 +194,23 @@ UdpReceiver::~UdpReceiver() {
 }
 
 int UdpReceiver::receive(const std::function<void(const Datagram&)>& take, int most) {
-    std::array<std::byte, kMostPacket> bytes;
-    alignas(cmsghdr) std::array<std::byte, 128> control;
-    for (int count = 0; count < most; ++count) {
-        sockaddr_storage from{};
-        iovec part{bytes.data(), bytes.size()};
-        msghdr message{};
-        message.msg_name = &from;
-        message.msg_namelen = sizeof from;
-        message.msg_iov = &part;
-        message.msg_iovlen = 1;
-        message.msg_control = control.data();
-        message.msg_controllen = control.size();
-        const ssize_t size = recvmsg(handle_, &message, 0);
-        if (size < 0 && errno == EINTR)
-            continue;
-        if (size < 0) // nothing more; or a network that is gone, which is silence too
-            return count;
-        const std::string_view sender(reinterpret_cast<const char*>(&from), message.msg_namelen);
-        take({std::span(bytes.data(), static_cast<std::size_t>(size)), sender, age_of(message)});
-    }
-    return most;
+    return receive_from(handle_, take, most);
+}
+
+bool UdpReceiver::answer(std::string_view sender, std::span<const std::byte> bytes) {
+    sockaddr_storage to{};
+    if (sender.size() > sizeof to)
+        return false;
+    std::memcpy(&to, sender.data(), sender.size());
+    return sendto(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL,
+                  reinterpret_cast<const sockaddr*>(&to),
+                  static_cast<socklen_t>(sender.size())) == static_cast<ssize_t>(bytes.size());
+}
+
+std::string address_of(std::string_view sender) {
+    sockaddr_storage address{};
+    std::memcpy(&address, sender.data(), std::min(sender.size(), sizeof address));
+    return name_of(address, static_cast<socklen_t>(sender.size())).first;
 }
 
 UdpSender::UdpSender(const Endpoint& endpoint, std::string_view option)
@@ -191,16 +227,32 @@ UdpSender::~UdpSender() {
 }
 
 bool UdpSender::send(std::span<const std::byte> bytes) {
-    // What nobody listened to comes back as ECONNREFUSED of the next one, which has not gone out
-    // then.
-    for (int attempt = 0; attempt < 2; ++attempt) {
-        if (::send(handle_, bytes.data(), bytes.size(), MSG_NOSIGNAL) ==
-            static_cast<ssize_t>(bytes.size()))
-            return true;
-        if (errno != ECONNREFUSED && errno != EINTR)
-            return false;
-    }
-    return false;
+    return send_to(handle_, bytes);
+}
+
+UdpLink::UdpLink(const Endpoint& endpoint, std::string_view option)
+    : handle_(open_socket(endpoint, option, connect, "a host that can be reached")) {
+    sockaddr_storage other{};
+    socklen_t size = sizeof other;
+    getpeername(handle_, reinterpret_cast<sockaddr*>(&other), &size);
+    address_ = name_of(other, size).first;
+}
+
+UdpLink::~UdpLink() {
+    close(handle_);
+}
+
+bool UdpLink::send(std::span<const std::byte> bytes) {
+    return send_to(handle_, bytes);
+}
+
+int UdpLink::receive(const std::function<void(const Datagram&)>& take, int most) {
+    return receive_from(handle_, take, most);
+}
+
+void UdpLink::wait(double seconds) const {
+    pollfd what{handle_, POLLIN, 0};
+    poll(&what, 1, static_cast<int>(seconds * 1000));
 }
 
 } // namespace sward::feed

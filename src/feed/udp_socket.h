@@ -41,12 +41,17 @@ public:
     /// Hands over what has come since the last call, in order, `most` packets at most: a flood
     /// shall not stop the picture. Returns how many.
     int receive(const std::function<void(const Datagram&)>& take, int most = 1024);
+    /// Sends to whom a packet came from. Never waits; false where the system would not take it.
+    bool answer(std::string_view sender, std::span<const std::byte> bytes);
 
 private:
     int handle_ = -1;
     std::uint16_t port_ = 0;
     std::string address_;
 };
+
+/// "127.0.0.1:5550" of a Datagram's sender.
+[[nodiscard]] std::string address_of(std::string_view sender);
 
 /// A socket for sending to one place. Nobody else can reach it, and nothing that comes back is
 /// read.
@@ -61,6 +66,28 @@ public:
     /// Never waits. False where the system would not take it; nobody listening is no error.
     bool send(std::span<const std::byte> bytes);
     [[nodiscard]] const std::string& address() const { return address_; }
+
+private:
+    int handle_ = -1;
+    std::string address_;
+};
+
+/// A socket between this program and one other. Nobody else can reach it.
+class UdpLink {
+public:
+    /// Throws Error(kIo) that names `option`: no such host, no way to it.
+    UdpLink(const Endpoint& endpoint, std::string_view option);
+    ~UdpLink();
+    UdpLink(const UdpLink&) = delete;
+    UdpLink& operator=(const UdpLink&) = delete;
+
+    /// As UdpSender's.
+    bool send(std::span<const std::byte> bytes);
+    /// As UdpReceiver's.
+    int receive(const std::function<void(const Datagram&)>& take, int most = 4096);
+    /// Sleeps until something comes, so many seconds at most.
+    void wait(double seconds) const;
+    [[nodiscard]] const std::string& address() const { return address_; } ///< the other's
 
 private:
     int handle_ = -1;

@@ -96,10 +96,10 @@ void Aeroplane::add_air(const Stick& stick, Sum& sum) {
     const dvec3 v = to_air(glm::inverse(now_.turn) * through);
     const double speed = glm::length(v), pull_speed = std::max(kSlowest_mps, v.x);
     now_.airspeed_mps = speed;
-    const double pull =
+    now_.pull_n =
         std::clamp(stick.throttle, 0.0, 1.0) *
         std::min(spec_.static_pull_kn * 1000, spec_.propeller * spec_.power_kw * 1000 / pull_speed);
-    dvec3 force(pull, 0, 0), moment(0);
+    dvec3 force(now_.pull_n, 0, 0), moment(0);
     now_.attack_rad = now_.slip_rad = 0;
     now_.stalled = false;
     if (speed > kSlowest_mps) {

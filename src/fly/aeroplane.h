@@ -32,6 +32,7 @@ struct AeroplaneState {
     glm::dvec3 velocity_mps{0};  ///< over the ground
     glm::dvec3 rates{0};         ///< roll, pitch, yaw (rad/s): right wing down, nose up, nose right
     double airspeed_mps = 0;
+    double pull_n = 0;                   ///< of the propeller
     double attack_rad = 0, slip_rad = 0; ///< angle of attack; wind from the right
     bool stalled = false, on_ground = false, crashed = false;
     [[nodiscard]] glm::dvec3 ahead() const { return turn * glm::dvec3(0, 0, -1); }

@@ -47,6 +47,10 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     TableReader reader(whole, file, "");
     AeroplaneSpec spec;
     spec.name = file.stem().string();
+    std::string kind = "aeroplane";
+    reader.text("kind", kind);
+    if (kind != "aeroplane")
+        throw reader.error("kind", base::printable(kind), "aeroplane or helicopter");
     reader.text("name", spec.name);
     reader.number("mass_kg", spec.mass_kg, {50, 20'000, "kg"});
     reader.three("inertia_kgm2", spec.inertia_kgm2, {10, 1e6, "kg m2"});
@@ -57,6 +61,7 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     reader.number("power_kw", spec.power_kw, {1, 5000, "kW"});
     reader.number("propeller", spec.propeller, {0.1, 1, ""});
     reader.number("static_pull_kn", spec.static_pull_kn, {0.05, 100, "kN"});
+    reader.number("propeller_m", spec.propeller_m, {0.2, 8, "m"});
     reader.three("throw_deg", spec.throw_deg, {1, 45, "degrees"});
     reader.number("cruise_mps", spec.cruise_mps, {10, 200, "m/s"});
     reader.number("gear_m", spec.gear_m, {0.2, 5, "m"});

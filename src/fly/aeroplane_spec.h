@@ -33,6 +33,7 @@ struct AeroplaneSpec {
     double power_kw = 120, propeller = 0.75; ///< of the engine; share of it that pulls
     double static_pull_kn = 2.4;             ///< standing: the propeller's most
     glm::dvec3 throw_deg{20, 25, 20};        ///< ailerons, elevator, rudder at full stick
+    double propeller_m = 1.9;                ///< across
     double cruise_mps = 50;                  ///< what it is trimmed for
     double gear_m = 1.15;                    ///< centre of mass over the ground, standing
     double gear_track_m = 2.5, gear_ahead_m = 1.3,

@@ -135,6 +135,15 @@ void Field::set_colliders(std::span<const Ball> balls, double time_s) {
     });
 }
 
+void Field::set_blowers(std::span<const Blower> blowers, double time_s) {
+    drawn([&] {
+        std::vector<scene::MovingWindSource> all;
+        for (const Blower& blower : blowers)
+            all.push_back(render::source_of(blower, time_s));
+        ready(inside_).sources().set_moving(std::move(all));
+    });
+}
+
 void Field::set_density(double share) {
     drawn([&] { ready(inside_).set_density(share); });
 }

@@ -197,6 +197,34 @@ void check_arrows(const std::vector<scene::WindArrow>& arrows) {
     }
 }
 
+scene::MovingWindSource source_of(const Blower& blower, double time_s) {
+    const bool finite = std::isfinite(blower.place.x + blower.place.y + blower.velocity.x +
+                                      blower.velocity.y + blower.yaw_deg + time_s);
+    const bool rotor = blower.kind == Blower::Kind::kRotor;
+    if (!finite || !(blower.speed_mps >= 0 && blower.speed_mps <= 300) ||
+        !(blower.radius_m >= 0.05 && blower.radius_m <= 1000) ||
+        !(!rotor || (blower.height_m >= 0 && blower.height_m <= 1e6)) ||
+        !(rotor || (blower.length_m >= 0.1 && blower.length_m <= 1e4)))
+        throw unfit("blower", "numbers out of range",
+                    "finite places, a speed of 0 to 300 m/s, a radius of 0.05 to 1000 m, a height "
+                    "of 0 or more, a length of 0.1 to 10000 m");
+    using Kind = scene::WindSource::Kind;
+    scene::MovingWindSource moving;
+    moving.source.kind = rotor                                ? Kind::kRotor
+                         : blower.kind == Blower::Kind::kWake ? Kind::kWake
+                                                              : Kind::kJet;
+    moving.source.where.place = blower.place;
+    moving.source.where.yaw_deg = blower.yaw_deg;
+    moving.source.strength_mps = blower.speed_mps;
+    moving.source.radius_m = blower.radius_m;
+    moving.source.length_m = blower.length_m;
+    if (rotor)
+        moving.source.height_m = blower.height_m;
+    moving.velocity_mps = blower.velocity;
+    moving.time_s = time_s;
+    return moving;
+}
+
 void check_textures(const HostTextures& host, int width, int height) {
     const auto check = [&](const char* what, std::uint32_t texture) {
         if (texture == 0) {

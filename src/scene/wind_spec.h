@@ -51,6 +51,14 @@ struct WindSource {
     double start_s = 0, end_s = kForever;
 };
 
+/// One that a host moves: at `source.where.place` at `time_s`, and on a straight line before and
+/// after it.
+struct MovingWindSource {
+    WindSource source;
+    glm::dvec2 velocity_mps{0, 0};
+    double time_s = 0;
+};
+
 struct WindObstacle {
     enum class Kind { kBox, kCircle, kMesh } kind = Kind::kCircle;
     WindPlace where;

@@ -18,6 +18,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "sward/blower.h"
 #include "sward/error.h"
 
 namespace sward {
@@ -166,6 +167,11 @@ public:
     /// Balls that the host drives, as at `time_s`, the time of the next simulate(). Those of the
     /// same number in the call before came from there.
     void set_colliders(std::span<const Ball> balls, double time_s);
+    /// What moves the air beside the scene's own sources, from the next step on, as at `time_s`:
+    /// before and after that each is on the straight line of its velocity. In the place of those of
+    /// the call before; none: nothing. While there is one the wind's local window is simulated.
+    /// Throws Error(kBadInput) for a number that is not finite or out of its range.
+    void set_blowers(std::span<const Blower> blowers, double time_s);
     /// Share of the set's blades that stand, 0 to 1, from the next picture on. Throws Error(kUsage)
     /// in a scene on a mesh.
     void set_density(double share);

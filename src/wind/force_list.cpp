@@ -150,13 +150,19 @@ std::vector<WindForce> ForceList::at(double time_s, glm::dvec2 origin, double le
     for (std::size_t i = 0; i < arrows_.size(); ++i)
         if (time_s >= spans_[i].start_s && time_s < spans_[i].end_s && arrows_[i].strength_mps > 0)
             forces.push_back(arrow_force(arrows_[i], origin, least_m));
-    for (const scene::WindSource& source : sources_) {
-        if (time_s < source.start_s || time_s >= source.end_s)
-            continue;
+    const auto add = [&](const scene::WindSource& source) {
         WindForce force = force_of(source, time_s, origin);
         force.radius_m = std::max(force.radius_m, static_cast<float>(least_m));
         if (force.speed_mps > 0)
             forces.push_back(force);
+    };
+    for (const scene::WindSource& source : sources_)
+        if (time_s >= source.start_s && time_s < source.end_s)
+            add(source);
+    for (const scene::MovingWindSource& moving : moving_) {
+        scene::WindSource source = moving.source;
+        source.where.place += moving.velocity_mps * (time_s - moving.time_s);
+        add(source);
     }
     return forces;
 }

@@ -27,13 +27,16 @@ struct Outwash {
 [[nodiscard]] Outwash rotor_outwash(const scene::WindSource& rotor, double height_m);
 
 /// What pushes the air, from time to a list. Forces of arrows first, then of sources, each in the
-/// order of the file.
+/// order of the file, then of what a host moves.
 class ForceList {
 public:
     ForceList(const scene::WindSpec& spec, Paths paths, GroundHeight ground);
 
     void set_arrows(std::vector<scene::WindArrow> arrows);
-    [[nodiscard]] bool empty() const { return arrows_.empty() && sources_.empty(); }
+    void set_moving(std::vector<scene::MovingWindSource> moving) { moving_ = std::move(moving); }
+    [[nodiscard]] bool empty() const {
+        return arrows_.empty() && sources_.empty() && moving_.empty();
+    }
     /// Those that act at `time_s`. Places are relative to `origin` (world x, z, m); radii are at
     /// least `least_m`, so that no force falls between the faces of a grid.
     [[nodiscard]] std::vector<shared::WindForce> at(double time_s, glm::dvec2 origin,
@@ -46,6 +49,7 @@ private:
     std::vector<scene::WindArrow> arrows_;
     std::vector<Span> spans_;
     std::vector<scene::WindSource> sources_;
+    std::vector<scene::MovingWindSource> moving_;
     Paths paths_;
     GroundHeight ground_;
 };

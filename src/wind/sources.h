@@ -43,6 +43,11 @@ public:
     /// there; chains end.
     void set_arrows(std::vector<scene::WindArrow> arrows) { forces_.set_arrows(std::move(arrows)); }
 
+    /// What a host moves, beside the scene's own, from the next step on.
+    void set_moving(std::vector<scene::MovingWindSource> moving) {
+        forces_.set_moving(std::move(moving));
+    }
+
     /// A window is simulated even while nothing stands or pushes.
     void keep_active() { always_active_ = true; }
 

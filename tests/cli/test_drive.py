@@ -6,6 +6,11 @@ from test_view import ESCAPE, ViewCase
 
 
 class Drive(ViewCase):
+    def setUp(self):
+        super().setUp()
+        # What goes moves the air: a small window of it.
+        self.scene(sward_cli.SCENE + "\n[wind]\ncells = 64\n")
+
     def begin(self, *arguments):
         """The viewer, its window, what tells a pose, and what waits for one; a picture is a fifth
         of a second."""
@@ -39,6 +44,27 @@ class Drive(ViewCase):
         turned = until(lambda at: 5 < at[3] < 90)
         self.assertGreater(turned[0], start[0] - 5)
         self.display.key(window, "d", False)
+        self.display.tap(window, ESCAPE)
+        _, err = child.communicate(timeout=300)
+        self.assertEqual(child.returncode, 0, err)
+
+    def test_helicopter(self):
+        """Hands off it stands in the air, over its own downwash; the stick ahead takes it north; let go it stands again."""
+        child, window, pose, until = self.begin("--fly", "helicopter", "--camera", "0,8,0,0,0")
+        start = pose()
+        poses = []
+        until(lambda at: poses.append(at) or len(poses) > 8)
+        self.assertLess(max(abs(poses[-1][i] - start[i]) for i in (0, 2)), 2)
+        self.assertAlmostEqual(poses[-1][1], start[1], delta=3)
+        self.display.key(window, "w", True)
+        until(lambda at: at[2] < start[2] - 25)
+        self.display.key(window, "w", False)
+        poses = []
+        until(
+            lambda at: poses.append(at)
+            or (len(poses) > 1 and abs(poses[-1][2] - poses[-2][2]) < 0.05)
+        )
+        self.assertGreater(poses[-1][1], 2, "it has not come down")
         self.display.tap(window, ESCAPE)
         _, err = child.communicate(timeout=300)
         self.assertEqual(child.returncode, 0, err)
