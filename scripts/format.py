@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Lays out the sources: C++ and GLSL by clang-format 14, Python by ruff, both at 100 columns.
+"""Lays out the sources: C++ and GLSL by clang-format 14, Python by ruff, both at 100 columns;
+pages by mdformat, at 120.
 
     build/venv/bin/python scripts/format.py             lays out every tracked source
     build/venv/bin/python scripts/format.py FILE...     only these
     build/venv/bin/python scripts/format.py --check     changes nothing; exits with 1 and the names
                                                         of the files that would change
 
-The two tools are in tests/requirements.txt at the versions that CI uses: another version lays out
+The tools are in tests/requirements.txt at the versions that CI uses: another version lays out
 differently. They are looked for beside this Python first, then in the PATH."""
 
 import re
@@ -42,6 +43,8 @@ def laid_out(path, text):
     if path.suffix == ".py":
         name = ["--stdin-filename", str(path)]
         return run([tool("ruff"), "format", "--quiet", *name, "-"], text, path)
+    if path.suffix == ".md":
+        return run([tool("mdformat"), "--wrap", "120", "--compact-tables", "-"], text, path)
     # clang-format takes GLSL for C++, and knows its suffixes only under a name of C++'s.
     name = f"--assume-filename={path.with_suffix('.cpp') if path.suffix in GLSL else path}"
     text = run([tool("clang-format"), "--style=file", name], text, path)
@@ -55,7 +58,9 @@ def main():
     listed = subprocess.run(["git", "ls-files"], capture_output=True, text=True, cwd=ROOT).stdout
     paths = [Path(argument).resolve().relative_to(ROOT) for argument in arguments]
     paths = paths or [Path(name) for name in listed.splitlines()]
-    paths = [path for path in paths if path.suffix in (*CURLY, ".py") and (ROOT / path).is_file()]
+    paths = [
+        path for path in paths if path.suffix in (*CURLY, ".py", ".md") and (ROOT / path).is_file()
+    ]
     with ThreadPoolExecutor() as pool:
         texts = [(ROOT / path).read_text(encoding="utf-8") for path in paths]
         wanted = list(pool.map(laid_out, paths, texts))
