@@ -126,9 +126,10 @@ TEST_F(Land, EveryWidthReadsTheSameField) {
 // flutter, which keeps lengths, comes before.
 TEST_F(Land, ABladeIsItsClassesHeight) {
     world_.set.blades.resize(64);
-    const std::array<shared::BladeTile, 2> tiles = {
-        shared::BladeTile{{-100, -40}, 64},
-        shared::BladeTile{{1, -3}, 64}}; // hay far away, lawn near by
+    std::array<shared::BladeTile, 2> tiles = {};
+    tiles[0].corner = {-100, -40}; // hay far away
+    tiles[1].corner = {1, -3};     // lawn near by
+    tiles[0].end = tiles[1].end = 64;
     const auto records = gl::Buffer::of(std::span<const shared::BladeRecord>(world_.set.blades));
     const auto corners = gl::Buffer::of(std::span<const shared::BladeTile>(tiles));
     records.bind_storage(BIND_BLADES);
