@@ -10,7 +10,7 @@ install(TARGETS sward_library EXPORT swardTargets ARCHIVE DESTINATION "${CMAKE_I
 install(FILES src/sward/blower.h src/sward/camera.h src/sward/error.h src/sward/field.h src/sward/log.h src/sward/view.h
               "${PROJECT_BINARY_DIR}/include/sward/version.h"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/sward")
-install(DIRECTORY shaders DESTINATION "${SWARD_DATA}")
+install(DIRECTORY shaders DESTINATION "${SWARD_DATA}" PATTERN ".clang-format" EXCLUDE)
 if(SWARD_PROGRAMS)
     install(TARGETS sward RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
     install(DIRECTORY terrains DESTINATION "${SWARD_DATA}")

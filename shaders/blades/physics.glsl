@@ -61,17 +61,20 @@ vec3 physics_root(BladePage page, PhysicsRecord blade, bool high) {
 #endif
 }
 
+#ifdef SURFACE
+vec2 physics_wind(vec2 xz) {
+    return wind_of(step_wind, xz);
+}
+#else
 // What bends a living blade at a place: the wind, what lies there and holds it down, and the bend
 // that passes. Each blade by its own response: what presses asks not how stiff it is. Of the bend
 // `own` is left out, what a blade's own contacts stand for.
 vec2 physics_wind(vec2 xz, float response, float own) {
     vec2 wind = wind_of(step_wind, xz);
-#ifndef SURFACE
     if (has_tracks()) {
         TrackSeen track = track_at(xz, 0.0);
         wind = sway_wind(wind, response, track.theta * (1.0 - own), sway_pressed(track));
     }
-#endif
     return wind;
 }
 
@@ -79,6 +82,7 @@ vec2 physics_wind(vec2 xz, float response, float own) {
 vec2 physics_wind(vec2 xz) {
     return physics_wind(xz, rules.response > 0.0 ? rules.response : frame.wind.response, 0.0);
 }
+#endif
 
 BladeBody physics_body(PhysicsRecord blade, vec3 root) {
 #ifdef SURFACE

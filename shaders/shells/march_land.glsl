@@ -51,10 +51,12 @@ float land_share(Entry entry, MarchPlan plan, vec3 rest) {
 // Mean tangent of blades that are drawn out or pressed by the entry's factor: as if all leaned as
 // far as the mean is upright.
 vec3 land_tangent(Entry entry, vec3 mean) {
-    if (!has_heights()) {
-        return mean;
+#ifndef SURFACE
+    if (has_heights()) {
+        float height = entry.lying;
+        return vec3(mean.x, height * mean.y, mean.z) *
+               inversesqrt(max(1.0 - mean.y * mean.y * (1.0 - height * height), 1e-4));
     }
-    float height = entry.lying;
-    return vec3(mean.x, height * mean.y, mean.z) *
-           inversesqrt(max(1.0 - mean.y * mean.y * (1.0 - height * height), 1e-4));
+#endif
+    return mean;
 }

@@ -90,7 +90,7 @@ OVER = {
     "tests/gl/layout_test.cpp:Layout.FrameConstants": 63,
     "tests/gl/near_physics_test.cpp": 452,
     "tests/gl/near_physics_test.cpp:NearPhysics.StatesEqualTheTwinOverSixHundredSteps": 65,
-    "tests/gl/programs_test.cpp": 520,
+    "tests/gl/programs_test.cpp": 521,
     "tests/gl/programs_test.cpp:Programs.BlocksAreBoundByTheirNames": 97,
     "tests/gl/programs_test.cpp:Programs.SamplersReadTheUnitsOfTheirNames": 64,
     "tests/gl/programs_test.cpp:variants": 91,
