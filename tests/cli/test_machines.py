@@ -107,7 +107,7 @@ class Machines(CliCase):
         early.begin()
         first = master.shot()
         master.display.key(master.window, "w", True)
-        master.wait_for(lambda: master.steps() >= 60)
+        master.wait_for(lambda: master.steps() >= 24)
         for key in ("]", PAGE_UP, "]"):
             master.display.tap(master.window, key)
         noise, chance = socket.socket(socket.AF_INET, socket.SOCK_DGRAM), random.Random(4)
