@@ -19,7 +19,7 @@ from sward_cli import BIN, SOURCE
 BUILD = BIN.parent
 EMBEDDING = SOURCE / "docs/embedding"
 WIDTH, HEIGHT = 320, 200
-PUBLIC = ["camera.h", "error.h", "field.h", "log.h", "version.h", "view.h"]
+PUBLIC = ["blower.h", "camera.h", "error.h", "field.h", "log.h", "version.h", "view.h"]
 
 
 def run(*command, **more):
