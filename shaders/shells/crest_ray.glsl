@@ -70,7 +70,8 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
         float last = min(scene, kHorizon);
         float from = next.distance + 0.1;
         vec3 here = frame.eye + view.way * from;
-        if (!has_heights() && here.y - ground_at(here.xz) < kSkims * next.height) {
+        float top = path.bend.w * land_height(here.xz, from / frame.focal_px);
+        if (here.y - ground_at(here.xz) < kSkims * top) {
             return entry_falling(view, next, from, kSkimFall);
         }
         bool ends_soon = last < from * (1.0 + kSameShare);

@@ -2,7 +2,6 @@
 #include "app/fly_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -14,9 +13,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
-#include "app/model_eye.h"
 #include "app/model_files.h"
 #include "app/paths.h"
+#include "app/pilot_seat.h"
 #include "app/turn_angles.h"
 #include "fly/aeroplane.h"
 #include "fly/aeroplane_mesh.h"
@@ -25,21 +24,25 @@
 namespace sward::app {
 namespace {
 
-constexpr double kNearGround_m = 4;    // a pose lower than this begins on its wheels
-constexpr double kKeyThrow = 0.45;     // of the whole: keys know no half
-constexpr double kKeyFollow_per_s = 5; // how fast the stick goes where a key sends it
+constexpr double kNearGround_m = 4; // a pose lower than this begins on its wheels
 constexpr double kThrottleStep = 0.05;
-constexpr double kChaseBack = 1.9, kChaseUp = 0.35; // of its length
-constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -8;
 constexpr double kBallRadius_m = 0.3; // of a wheel, as the grass feels it
 constexpr double kAir = 1.225;        // kg/m3
 constexpr double kWashRadii = 8;   // how long the propeller's wash is, and how far it reaches down
 constexpr double kWashBelow_m = 8; // higher, no blade feels it
-constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
+
+PilotSeat::Feel feel_of(const fly::AeroplaneSpec& spec) {
+    return {.lever_step = kThrottleStep,
+            .key_follow_per_s = 5,
+            .chase = {.back_m = 1.9 * spec.length_m,
+                      .up_m = 0.35 * spec.length_m,
+                      .per_s = 2.5,
+                      .pitch_deg = -8}};
+}
 
 class FlySource : public PoseSource {
 public:
-    explicit FlySource(fly::AeroplaneSpec spec) : spec_(std::move(spec)) {}
+    explicit FlySource(const fly::AeroplaneSpec& spec) : spec_(spec), seat_(feel_of(spec)) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!aeroplane_) // the land is the same for all of a flight
@@ -50,23 +53,12 @@ public:
                                             }});
         if (!told_ || *told_ != pose.pose.position) // a camera's key, or the beginning
             begin(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
-        for (const Press& press : moment.input.presses) {
-            if (press.action == Action::kDriveCamera) {
-                camera_ = (camera_ + 1) % kCameras.size();
-                eye_.look_ahead();
-            } else if (press.action == Action::kMoreThrottle) {
-                throttle_ += kThrottleStep;
-            } else if (press.action == Action::kLessThrottle) {
-                throttle_ -= kThrottleStep;
-            }
-        }
-        throttle_ = std::clamp(throttle_ + kThrottleStep * moment.input.wheel, 0.0, 1.0);
-        aeroplane_->advance(moment.dt_s, stick_of(moment));
+        seat_.take(moment);
+        aeroplane_->advance(moment.dt_s, stick_of(moment.input));
         const fly::AeroplaneState state = aeroplane_->state();
         height_m_ = state.position.y - moment.land.height(state.position.x, state.position.z);
         blows_ = height_m_ < kWashBelow_m && state.pull_n > 0;
-        eye_.look_aside(moment.input.look_px);
-        place_eye(pose, moment);
+        seat_.place_eye(pose, moment, {state.position, state.turn, spec_.eye_m});
         told_ = pose.pose.position;
     }
 
@@ -82,7 +74,7 @@ public:
                                  : state.stalled && !state.on_ground ? ", STALL"
                                                                      : "";
         return fmt::format("{} {:.0f} kt, throttle {:.0f} %{}", spec_.name,
-                           state.airspeed_mps * 3600 / 1852, throttle_ * 100, word);
+                           state.airspeed_mps * 3600 / 1852, seat_.lever() * 100, word);
     }
 
     /// Its wheels.
@@ -145,52 +137,30 @@ private:
     }
 
     void begin(const scene::Pose& pose, double ground) {
-        stick_ = {0, 0, 0};
+        double throttle = 0;
         if (pose.position.y - ground > kNearGround_m) {
             aeroplane_->put_in_air(pose.position, pose.yaw_deg);
-            throttle_ = aeroplane_->cruise_throttle();
+            throttle = aeroplane_->cruise_throttle();
         } else {
             aeroplane_->put_on_ground(pose.position.x, pose.position.z, pose.yaw_deg);
-            throttle_ = 0;
         }
-        eye_.begin(pose.yaw_deg);
+        seat_.begin(pose.yaw_deg, throttle);
     }
 
-    /// Keys move the stick some way, and it goes there in a moment; a device moves it as far as it
-    /// is moved.
-    fly::Stick stick_of(const PoseMoment& moment) {
-        using input::Axis;
-        const Input& asked = moment.input;
-        const glm::dvec3 wanted = glm::dvec3(asked.move.x, -asked.move.z, asked.move.y) * kKeyThrow;
-        stick_ += (wanted - stick_) * (1 - std::exp(-kKeyFollow_per_s * moment.dt_s));
-        const auto with = [&](double key, Axis axis) {
-            return std::clamp(key + asked.axis(axis), -1.0, 1.0);
-        };
-        return {with(stick_.x, Axis::kRoll), with(stick_.y, Axis::kPitch),
-                with(stick_.z, Axis::kYaw),
-                std::clamp(throttle_ + asked.axis(Axis::kThrottle), 0.0, 1.0),
-                std::max(asked.axis(Axis::kBrake), throttle_ < kThrottleStep / 2 ? 1.0 : 0.0)};
-    }
-
-    void place_eye(ViewPose& view, const PoseMoment& moment) {
-        const fly::AeroplaneState state = aeroplane_->state();
-        const Angles sight = angles_of(state.turn);
-        const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m,
-                                    kChaseFollow_per_s, kChasePitch_deg};
-        if (camera_ == 1) {
-            eye_.come_round(sight.yaw, chase, moment.dt_s);
-            eye_.put_behind(view, state.position, chase, moment.land);
-        } else
-            eye_.put_on_board(view, state.position + state.turn * spec_.eye_m, sight, moment.land);
+    /// The wheels' brakes hold while the throttle is closed.
+    [[nodiscard]] fly::Stick stick_of(const Input& input) const {
+        const glm::dvec3 stick = seat_.stick(input);
+        const double closed = seat_.lever() < kThrottleStep / 2 ? 1.0 : 0.0;
+        return {stick.x, stick.y, stick.z, seat_.lever(input),
+                std::max(input.axis(input::Axis::kBrake), closed)};
     }
 
     fly::AeroplaneSpec spec_;
     std::optional<fly::Aeroplane> aeroplane_;
-    std::optional<glm::dvec3> told_;     ///< where the eye was put last
-    std::size_t camera_ = 0, first_ = 0; ///< of its objects in the scene
-    glm::dvec3 stick_{0};                ///< as the keys have it: roll, pitch, yaw
-    ModelEye eye_;
-    double throttle_ = 0, height_m_ = 0; ///< over the ground
+    std::optional<glm::dvec3> told_; ///< where the eye was put last
+    std::size_t first_ = 0;          ///< of its objects in the scene
+    PilotSeat seat_;
+    double height_m_ = 0; ///< over the ground
     bool blows_ = false;
 };
 

@@ -2,7 +2,6 @@
 #include "app/helicopter_source.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -13,9 +12,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "app/controls.h"
-#include "app/model_eye.h"
 #include "app/model_files.h"
-#include "app/turn_angles.h"
+#include "app/pilot_seat.h"
 #include "fly/helicopter.h"
 #include "fly/helicopter_mesh.h"
 #include "render/world.h"
@@ -24,21 +22,25 @@ namespace sward::app {
 namespace {
 
 constexpr double kNearGround_m = 4;    // a pose lower than this begins on its skids
-constexpr double kKeyThrow = 0.45;     // of the whole: keys know no half
-constexpr double kKeyFollow_per_s = 6; // how fast the stick goes where a key sends it
-constexpr double kLeverStep = 0.02;
-constexpr double kChaseBack = 1.5, kChaseUp = 0.35; // of its length
-constexpr double kChaseFollow_per_s = 2.5, kChasePitch_deg = -10;
 constexpr double kBallRadius_m = 0.15; // along a skid, as the grass feels it
 constexpr double kTailGear = 6;        // turns of the tail rotor in one of the main rotor
 constexpr double kBlowsBelow_m = 50, kBlowsStill_m = 60; // higher, no blade feels it
 constexpr double kAround = 3;        // radii from where the downwash lands: past its ring
 constexpr double kLeastThrust = 0.1; // of the weight
-constexpr std::array<const char*, 2> kCameras = {"pilot", "chase"};
+
+PilotSeat::Feel feel_of(const fly::HelicopterSpec& spec) {
+    return {.lever_step = 0.02,
+            .key_follow_per_s = 6,
+            .chase = {.back_m = 1.5 * spec.length_m,
+                      .up_m = 0.35 * spec.length_m,
+                      .per_s = 2.5,
+                      .pitch_deg = -10}};
+}
 
 class HelicopterSource : public PoseSource {
 public:
-    explicit HelicopterSource(fly::HelicopterSpec spec) : spec_(std::move(spec)) {}
+    explicit HelicopterSource(const fly::HelicopterSpec& spec)
+        : spec_(spec), seat_(feel_of(spec)) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!model_) // the land is the same for all of a flight
@@ -48,13 +50,15 @@ public:
                                                }});
         if (!told_ || *told_ != pose.pose.position) // a camera's key, or the beginning
             begin(pose.pose, moment.land.height(pose.pose.position.x, pose.pose.position.z));
+        seat_.take(moment);
         for (const Press& press : moment.input.presses)
-            act(press);
-        lever_ = std::clamp(lever_ + kLeverStep * moment.input.wheel, 0.0, 1.0);
-        model_->advance(moment.dt_s, stick_of(moment));
+            engine_ ^= press.action == Action::kEngine;
+        const glm::dvec3 stick = seat_.stick(moment.input);
+        model_->advance(moment.dt_s,
+                        {stick.x, stick.y, stick.z, seat_.lever(moment.input), engine_});
         note_height(moment.land);
-        eye_.look_aside(moment.input.look_px);
-        place_eye(pose, moment);
+        const fly::HelicopterState state = model_->state();
+        seat_.place_eye(pose, moment, {state.position, state.turn, spec_.eye_m});
         told_ = pose.pose.position;
     }
 
@@ -67,7 +71,7 @@ public:
         const fly::HelicopterState state = model_->state();
         return fmt::format("{} {:.0f} kt, climb {:+.1f} m/s, lever {:.0f} %, rotor {:.0f} %{}",
                            spec_.name, state.airspeed_mps * 3600 / 1852, state.velocity_mps.y,
-                           lever_ * 100, state.rotor_share * 100,
+                           seat_.lever() * 100, state.rotor_share * 100,
                            state.crashed ? ", crashed"
                            : engine_     ? ""
                                          : ", ENGINE OFF");
@@ -149,45 +153,16 @@ private:
         return sum / 4.0;
     }
 
-    void act(const Press& press) {
-        if (press.action == Action::kDriveCamera) {
-            camera_ = (camera_ + 1) % kCameras.size();
-            eye_.look_ahead();
-        } else if (press.action == Action::kMoreThrottle) {
-            lever_ += kLeverStep;
-        } else if (press.action == Action::kLessThrottle) {
-            lever_ -= kLeverStep;
-        } else if (press.action == Action::kEngine) {
-            engine_ = !engine_;
-        }
-    }
-
     void begin(const scene::Pose& pose, double ground) {
-        stick_ = {0, 0, 0};
+        double lever = 0;
         engine_ = true;
         if (pose.position.y - ground > kNearGround_m) {
             model_->put_in_air(pose.position, pose.yaw_deg);
-            lever_ = model_->hover_lever();
+            lever = model_->hover_lever();
         } else {
             model_->put_on_ground(pose.position.x, pose.position.z, pose.yaw_deg);
-            lever_ = 0;
         }
-        eye_.begin(pose.yaw_deg);
-    }
-
-    /// Keys move the stick some way, and it goes there in a moment; a device moves it as far as it
-    /// is moved.
-    fly::HelicopterStick stick_of(const PoseMoment& moment) {
-        using input::Axis;
-        const Input& asked = moment.input;
-        const glm::dvec3 wanted = glm::dvec3(asked.move.x, -asked.move.z, asked.move.y) * kKeyThrow;
-        stick_ += (wanted - stick_) * (1 - std::exp(-kKeyFollow_per_s * moment.dt_s));
-        const auto with = [&](double key, Axis axis) {
-            return std::clamp(key + asked.axis(axis), -1.0, 1.0);
-        };
-        return {with(stick_.x, Axis::kRoll), with(stick_.y, Axis::kPitch),
-                with(stick_.z, Axis::kYaw),
-                std::clamp(lever_ + asked.axis(Axis::kThrottle), 0.0, 1.0), engine_};
+        seat_.begin(pose.yaw_deg, lever);
     }
 
     void note_height(const Land& land) {
@@ -200,26 +175,13 @@ private:
                  state.thrust_n > kLeastThrust * spec_.mass_kg * 9.81;
     }
 
-    void place_eye(ViewPose& view, const PoseMoment& moment) {
-        const fly::HelicopterState state = model_->state();
-        const Angles sight = angles_of(state.turn);
-        const ModelEye::Chase chase{kChaseBack * spec_.length_m, kChaseUp * spec_.length_m,
-                                    kChaseFollow_per_s, kChasePitch_deg};
-        if (camera_ == 1) {
-            eye_.come_round(sight.yaw, chase, moment.dt_s);
-            eye_.put_behind(view, state.position, chase, moment.land);
-        } else
-            eye_.put_on_board(view, state.position + state.turn * spec_.eye_m, sight, moment.land);
-    }
-
     fly::HelicopterSpec spec_;
     std::optional<fly::Helicopter> model_;
-    std::optional<glm::dvec3> told_;     ///< where the eye was put last
-    std::size_t camera_ = 0, first_ = 0; ///< of its objects in the scene
-    glm::dvec3 stick_{0};                ///< as the keys have it: roll, pitch, yaw
-    ModelEye eye_;
-    double lever_ = 0, height_m_ = 0; ///< of the hub over the ground
-    glm::dvec2 wash_m_{0};            ///< how far behind the hub the downwash comes to the ground
+    std::optional<glm::dvec3> told_; ///< where the eye was put last
+    std::size_t first_ = 0;          ///< of its objects in the scene
+    PilotSeat seat_;
+    double height_m_ = 0;  ///< of the hub over the ground
+    glm::dvec2 wash_m_{0}; ///< how far behind the hub the downwash comes to the ground
     bool engine_ = true, blows_ = false;
 };
 

@@ -136,8 +136,9 @@ LandShapes read_features(const scene::LandFeature& feature, const scene::Heightf
     if (!feature.where.empty() &&
         OGR_L_SetAttributeFilter(layer, feature.where.c_str()) != OGRERR_NONE)
         throw base::input_error(ExitCode::kBadInput, feature.file, 0, "where",
-                                "\"" + base::printable(feature.where) + "\"",
-                                scope.error("a condition on its attributes"));
+                                "\"" + base::printable(feature.where) + "\" (" +
+                                    scope.error("refused") + ")",
+                                "a condition on the file's attributes");
     const FrameWarp to_frame =
         warp_to_frame(OGR_L_GetSpatialRef(layer), *ground.origin, feature.file);
     LandShapes shapes;

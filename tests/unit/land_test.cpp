@@ -206,7 +206,8 @@ TEST_F(Land, FeaturesComeInTheTerrainsFrame) {
     expect_holds(error_of([&] { (void)read_features(feature, ground); }),
                  "geometry: found none that \"where\" lets through, expected at least one line");
     feature.where = "no such thing =";
-    expect_holds(error_of([&] { (void)read_features(feature, ground); }), "where: found");
+    expect_holds(error_of([&] { (void)read_features(feature, ground); }),
+                 "expected a condition on the file's attributes");
     feature.where = "";
     feature.width_m = 0;
     expect_holds(error_of([&] { (void)read_features(feature, ground); }),
