@@ -38,6 +38,6 @@ set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Grassland for simulators: library, viewer
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # What a host needs to link the library; the programs run without.
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, pkg-config, libepoxy-dev, libfmt-dev, libglm-dev, libtinygltf-dev, libtomlplusplus-dev, libzstd-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, pkg-config, libepoxy-dev, libfmt-dev, libglm-dev, libssl-dev, libtinygltf-dev, libtomlplusplus-dev, libzstd-dev, nlohmann-json3-dev")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 include(CPack)
