@@ -63,18 +63,27 @@ TrackSeen track_texel(ivec2 cell, int level, inout ivec2 page, inout ivec2 slot)
         uvec2(texelFetch(track_shown, at).x, texelFetch(track_shown, at + 1).x));
 }
 
+// Loops in place of four calls, and below of two: compilers write every call out, and few programs
+// are longer than those that ask here.
 TrackSeen track_of_level(vec2 xz, int level) {
     vec2 place = track_level_place(frame.tracks, xz, level);
     vec2 low = floor(place);
     vec2 part = place - low;
-    ivec2 cell = ivec2(low);
     ivec2 page = ivec2(-1000000);
     ivec2 slot = ivec2(-1, 0);
-    TrackSeen north = track_mean(track_texel(cell, level, page, slot),
-                                 track_texel(cell + ivec2(1, 0), level, page, slot), part.x);
-    TrackSeen south = track_mean(track_texel(cell + ivec2(0, 1), level, page, slot),
-                                 track_texel(cell + ivec2(1, 1), level, page, slot), part.x);
-    return track_mean(north, south, part.y);
+    TrackSeen found = track_nothing();
+    TrackSeen row = found;
+    for (int n = 0; n < 4; ++n) {
+        ivec2 corner = ivec2(n & 1, n >> 1);
+        TrackSeen here = track_texel(ivec2(low) + corner, level, page, slot);
+        if (corner.x == 0) {
+            row = here;
+        } else {
+            row = track_mean(row, here, part.x);
+            found = track_mean(found, row, corner.y == 0 ? 1.0 : part.y);
+        }
+    }
+    return found;
 }
 
 bool track_within(vec2 xz, float beyond) {
@@ -91,10 +100,10 @@ TrackSeen track_at(vec2 xz, float width) {
     }
     float level = clamp(log2(max(width * frame.tracks.per_m, 1.0)), 0.0, float(kTrackLevels - 1));
     int fine = int(level);
-    TrackSeen found = track_of_level(xz, fine);
-    if (level > float(fine)) {
-        found = track_mean(found, track_of_level(xz, min(fine + 1, kTrackLevels - 1)),
-                           level - float(fine));
+    int coarse = level > float(fine) ? min(fine + 1, kTrackLevels - 1) : fine;
+    TrackSeen found = track_nothing();
+    for (int n = fine; n <= coarse; ++n) {
+        found = track_mean(found, track_of_level(xz, n), n == fine ? 1.0 : level - float(fine));
     }
     float left = frame.tracks.left;
     found.pressed *= left;
@@ -130,9 +139,7 @@ const int kTrackTaps = 6;
 TrackSeen track_along(vec2 xz, float width, vec2 along) {
     float run = length(along);
     int taps = clamp(int(ceil(run / max(width, 1.0 / frame.tracks.per_m))), 1, kTrackTaps);
-    if (taps == 1 || !track_within(xz, 0.5 * run)) {
-        return track_at(xz, max(width, run));
-    }
+    taps = track_within(xz, 0.5 * run) ? taps : 1;
     TrackSeen found = track_nothing();
     for (int n = 0; n < taps; ++n) {
         TrackSeen one = track_at(xz + along * ((float(n) + 0.5) / float(taps) - 0.5),

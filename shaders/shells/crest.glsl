@@ -68,6 +68,7 @@ Entry entry_at(View view, float distance_m) {
     vec3 ground = frame.eye + view.way * min(distance_m, kFarthest) - vec3(0.0, entry.height, 0.0);
     entry.air = vec4(wind, sway_at(ground, wind).xy);
     entry.lying = entry.aligned = 1.0;
-    return has_tracks() || has_heights() ? entry_on_track(view, entry, canopy_top(entry.air.xy))
-                                         : entry;
+    entry.comes_down = is_uneven();
+    entry.height = entry.comes_down ? canopy_top(entry.air.xy) : entry.height;
+    return entry;
 }

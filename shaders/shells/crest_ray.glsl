@@ -8,6 +8,8 @@ const float kBeside =
     1e-3; // of the distance: what is drawn of the ground may be so far from it (m a metre)
 const float kSkims = 0.8;    // of the canopy: a ray that has left it and is lower is still within
 const float kSkimFall = 0.1; // m a metre: how such a ray goes on
+const float kEndFall = 0.5;  // and one that comes to the ground that is drawn behind
+const float kAsGround = 0.0, kAsDrawn = -1.0; // in place of a fall: see entry_on()
 
 // Beyond a crest: where the ray comes down into a canopy of this height again, before `last`; else
 // kNever.
@@ -15,16 +17,14 @@ float next_entry(View view, float from, float last, float canopy) {
     const int kProbes = 20, kHalvings = 8;
     float low = from, high = kNever;
     float ratio = pow(max(last / from, 1.0001), 1.0 / float(kProbes));
-    float t = from;
-    for (int i = 0; i < kProbes && high >= kNever; ++i) {
-        t *= ratio;
-        vec3 at = frame.eye + view.way * t;
-        bool under = at.y - ground_at(at.xz) < canopy;
-        low = under ? low : t;
-        high = under ? t : high;
-    }
-    for (int i = 0; i < kHalvings && high < kNever; ++i) {
-        t = 0.5 * (low + high);
+    int halvings = 0;
+    for (int i = 0; i < kProbes + kHalvings && halvings < kHalvings; ++i) {
+        bool found = high < kNever;
+        if (!found && i >= kProbes) {
+            break;
+        }
+        halvings += found ? 1 : 0;
+        float t = found ? 0.5 * (low + high) : low * ratio;
         vec3 at = frame.eye + view.way * t;
         bool under = at.y - ground_at(at.xz) < canopy;
         low = under ? low : t;
@@ -42,20 +42,13 @@ bool on_drawn_ground(View view, float last, float height) {
            at.y - ground_at(at.xz) < height + (kBeside + 1.0 / frame.focal_px) * last;
 }
 
-// Down through the grass there, by `fall` for a metre of the ray.
-Entry entry_falling(View view, Entry entry, float from, float fall) {
-    entry.distance = from;
-    entry.ground = ground_under(frame.eye.xz + view.way.xz * from);
-    entry.ground.xy =
-        view.way.xz * ((view.way.y + fall) / max(dot(view.way.xz, view.way.xz), 1e-4));
-    return entry;
-}
-
 // Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands
-// behind.
-Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene) {
+// behind. `fall`: as entry_on() has it.
+Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene,
+                  out float fall) {
     Entry next = entry;
     bool over_it = walk.layer >= kMarchLayers;
+    fall = kAsDrawn;
     if (over_it &&
         eye_place.x > 0.5) { // from within: what is drawn from above is where it comes down first
         Entry drawn = entry_from_above(view, ivec2(gl_FragCoord.xy));
@@ -63,26 +56,44 @@ Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float 
             return drawn;
         }
     }
+    fall = kAsGround;
     next.height = over_it ? path.bend.w * highest()
                           : march_height(path, walk.s) * (has_heights() ? entry.lying : 1.0);
-    next.distance = entry.distance + walk.s;
+    next.distance = walk.layer < 0 ? kNever : entry.distance + walk.s;
+    next.comes_down = has_heights();
     if (over_it) {
         float last = min(scene, kHorizon);
         float from = next.distance + 0.1;
         vec3 here = frame.eye + view.way * from;
         float top = path.bend.w * land_height(here.xz, from / frame.focal_px);
         if (here.y - ground_at(here.xz) < kSkims * top) {
-            return entry_falling(view, next, from, kSkimFall);
+            next.distance = from;
+            fall = kSkimFall;
+            return next;
         }
         bool ends_soon = last < from * (1.0 + kSameShare);
         next.distance = ends_soon ? kNever : next_entry(view, from, last, next.height);
         if (next.distance >= kNever && on_drawn_ground(view, last, next.height)) {
-            return entry_falling(view, next, max(last - 2.0 * next.height, from), 0.5);
+            next.distance = max(last - 2.0 * next.height, from);
+            fall = kEndFall;
         }
     }
-    next.ground = ground_under(frame.eye.xz + view.way.xz * min(next.distance, kHorizon));
-    next.distance = walk.layer < 0 ? kNever : next.distance;
-    return has_heights() && next.distance < kNever ? entry_on_track(view, next, next.height) : next;
+    return next;
+}
+
+// The entry with the ground that is under it: as that lies, or so that the ray comes down through
+// the grass by `fall` for a metre.
+Entry entry_on(View view, Entry entry, float fall) {
+    if (fall == kAsDrawn) {
+        return entry;
+    }
+    entry.ground = ground_under(frame.eye.xz + view.way.xz * min(entry.distance, kHorizon));
+    if (fall > 0.0) {
+        entry.comes_down = false;
+        entry.ground.xy =
+            view.way.xz * ((view.way.y + fall) / max(dot(view.way.xz, view.way.xz), 1e-4));
+    }
+    return entry;
 }
 
 // A ray of some of the pixel's samples.
@@ -90,15 +101,19 @@ struct Ray {
     View view;
     Entry entry;
     vec4 members; // 1: these samples
+    bool fresh;   // to be found: of samples that have not entered yet, and of `members`
 };
 
-// The ray of those samples that enter the canopy nearest.
-Ray nearest_ray(ivec2 pixel, View view, vec4 entries) {
-    Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0));
+// The ray of those samples that enter the canopy nearest; what came through before goes on to the
+// same place.
+Ray nearest_ray(ivec2 pixel, vec4 came_through, vec4 entries) {
+    View view = view_of(pixel, ndc);
+    Ray ray = Ray(view, entry_at(view, nearest_of(entries)), vec4(1.0), false);
     ray.members = members_of(view, entries, ray.entry.ground.xy);
     ray.view = view_through(pixel, ray.members, ndc);
     ray.entry.distance = dot(ray.members, vec4(1.0)) /
                          dot(ray.members, 1.0 / entries); // of a plane that is the middle's
+    ray.members = max(ray.members, came_through);
     return ray;
 }
 
@@ -116,30 +131,31 @@ vec4 ends_at_crest(Ray ray, float from, float height, vec4 scene) {
 
 // The ray to march after `ray`: of samples that have not entered yet (`entries`), else of the same
 // through what comes behind.
-Ray ray_after(ivec2 pixel, Ray ray, MarchPath path, MarchWalk walk, vec4 scene,
-              inout vec4 entries) {
+Ray ray_after(Ray ray, MarchPath path, MarchWalk walk, vec4 scene, inout vec4 entries) {
     vec4 behind = mix(vec4(0.0), scene, ray.members);
+    float fall = kEndFall;
+    vec4 soon = vec4(0.0);
     if (walk.layer >= kMarchLayers) {
         float from = ray.entry.distance + walk.s + 0.1;
-        vec4 soon = ends_at_crest(ray, from, path.bend.w * highest(), scene);
+        soon = ends_at_crest(ray, from, path.bend.w * highest(), scene);
         if (dot(soon, vec4(1.0)) > 0.0) { // these, then the rest from here on
             bvec4 rest = greaterThan(ray.members - soon, vec4(0.5)); // kNever is too large to blend
             entries = mix(entries, vec4(from), rest);
             ray.members = soon;
             ray.entry.height = path.bend.w * highest();
             float first = nearest_of(mix(vec4(kNever), scene, greaterThan(soon, vec4(0.5))));
-            ray.entry = entry_falling(ray.view, ray.entry, first - 2.0 * ray.entry.height, 0.5);
-            return ray;
+            ray.entry.distance = first - 2.0 * ray.entry.height;
         }
     }
-    if (nearest_of(entries) >= kNever) {
+    if (dot(soon, vec4(1.0)) <= 0.0) {
+        if (nearest_of(entries) < kNever) {
+            ray.fresh = true;
+            ray.members = walk.layer < 0 ? vec4(0.0) : ray.members;
+            return ray;
+        }
         ray.entry = entry_after(ray.view, ray.entry, path, walk,
-                                max(max(behind.x, behind.y), max(behind.z, behind.w)));
-        return ray;
+                                max(max(behind.x, behind.y), max(behind.z, behind.w)), fall);
     }
-    Ray next = nearest_ray(pixel, view_of(pixel, ndc), entries);
-    next.members = walk.layer < 0 ? next.members
-                                  : max(next.members,
-                                        ray.members); // what came through goes on to the same place
-    return next;
+    ray.entry = entry_on(ray.view, ray.entry, fall);
+    return ray;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // In: the drawn scene, the canopy's upper surface, one kind's textures. Out: the scene resolved,
 // seen through the far field: the pixel's ray is marched through the canopy, front to back, from
-// where it enters it (docs/far-field.md). Variants: COLUMNS, else slabs; CREST, for rays that may
-// leave the canopy and come to another.
+// where it enters it (docs/far-field.md). Variants: COLUMNS, else slabs; CREST, of any kind, for
+// rays that may leave the canopy and come to another: few, and the longest to compile.
 #include "lib/resolved.glsl"
 #include "lib/tiers.glsl"
 #include "shells/march_view.glsl"
@@ -31,11 +31,16 @@ const int kReadsAPixel = 19; // choice and march: canopy 3 each; its samples 4, 
 int steps_taken = 0, texels_read = kReadsAPixel;
 #endif
 
+#ifdef CREST
 const int kStretches =
     5; // of one ray through the canopy: over crests, and along ground that curves away
+#else
+const int kStretches = 1;
+#endif
 const float kOnGround = 0.9; // of the way to the ground: what stands beyond is the ground
 const float kSpread = 0.6;   // of a pixel's length along the ground: its samples see ground so far
                              // before its middle
+const float kCrestLevel = 0.4; // of the mean slope at a crest: the samples that see the least of it
 const float kFacetSlope = 1e-4,  // the land as drawn may differ so much in slope from the land, for
     kFacetSlopeMost = 0.15;      // a metre of distance; at most
 const float kLeastShown = 0.02;  // share of a pixel: what shows less has its layer's mean tangent
@@ -48,6 +53,17 @@ struct Seen {
     vec4 through;   // share of each sample's light that comes through
     float half_way; // distance at which half of the first sample's light is gone (m)
 };
+
+// Is the kind columns?
+bool shows_columns() {
+#ifdef CREST
+    return kind == kMarchColumns;
+#elif defined(COLUMNS)
+    return true;
+#else
+    return false;
+#endif
+}
 
 float mean_of(vec4 samples_of_a_pixel) {
     return dot(samples_of_a_pixel, vec4(0.25));
@@ -144,7 +160,8 @@ float nearest_ground(Entry entry, MarchPath path, MarchPlan plan) {
     float fall = -path.height.y;
     float steeper = fall + min(kFacetSlope * entry.distance, kFacetSlopeMost);
     float reach = min(path.height.x / max(steeper, 1e-4), kNever);
-    return kOnGround * reach - kSpread * plan.footprint / max(fall, 2e-3);
+    float level = fall * (is_crest_mean(path) ? kCrestLevel : 1.0);
+    return kOnGround * reach - kSpread * plan.footprint / max(level, 2e-3);
 }
 
 // The canopy from an entry on, until it is opaque, the ray has left it or is on the ground, or the
@@ -177,7 +194,13 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
     for (int n = 0; n < kMarchSteps && march_inside(path, walk) && walk.s < last &&
                     mean_of(seen.through) > kMarchEnd;
          ++n) {
+#ifdef CREST
         MarchStep taken = march_step(path, plan, walk, vec2(float(n), scale));
+#elif defined(COLUMNS) // the one of march_step()'s two functions that is called
+        MarchStep taken = march_column(path, plan, walk, vec2(float(n), scale));
+#else
+        MarchStep taken = march_slab(path, plan, walk, vec2(float(n), scale));
+#endif
         Texel at = texel_of(plan, taken);
         vec4 texel = textureLod(densities, at.uv, taken.mip - march_base(kind));
         float depth = scale * taken.depth * texel.a * land_share(entry, plan, taken.rest);
@@ -187,9 +210,7 @@ MarchWalk march(View view, Entry entry, MarchPath path, vec4 scene, inout Seen s
         vec4 part = clamp((ends - taken.span.x) / max(taken.span.y - taken.span.x, 1e-6), 0.0, 1.0);
         vec4 lost = seen.through * (1.0 - exp(-depth * part));
         vec3 albedo = texel.rgb / max(texel.a, 1e-4);
-#ifdef COLUMNS
-        albedo *= march_tint(taken.layer, steepness);
-#endif
+        albedo *= shows_columns() ? march_tint(taken.layer, steepness) : vec3(1.0);
         float shown = mean_of(lost);
         march_gather(seen.grass, light, slope,
                      MarchBlades(albedo, land_tangent(entry, mean_tangent(path, taken, at, shown)),
@@ -255,26 +276,29 @@ void main() {
     vec3 radiance = vec3(0.0);
     vec4 through = vec4(1.0);
     float half_way = kNever;
-#ifdef CREST
-#ifndef SURFACE
+#if defined(CREST) && !defined(SURFACE)
     vec4 entries = eye_place.x > 0.5 ? vec4(entry.distance) : sample_entries(view, pixel);
-    Ray ray = Ray(view, entry, members);
+    Ray ray = Ray(view, entry, members, false);
     if (misses(entry, entries) || dot(members_of(view, entries, entry.ground.xy), members) < 4.0) {
-        ray = nearest_ray(pixel, view, entries);
+        ray.fresh = true;
+        ray.members = vec4(0.0);
     }
 #endif
     for (int stretch = 0; stretch < kStretches && mean_of(through) > kMarchEnd; ++stretch) {
 #ifndef SURFACE
+#ifdef CREST
+        if (ray.fresh) {
+            ray = nearest_ray(pixel, ray.members, entries);
+        }
         view = ray.view;
         entry = ray.entry;
         members = ray.members;
 #endif
+        entry = settled(view, entry);
+#endif
         if (entry.distance >= farthest) {
             break;
         }
-#else
-    if (entry.distance < farthest) {
-#endif
         Seen seen = Seen(march_nothing(), through, kNever);
         MarchPath path = path_of(view, entry);
         vec3 grass;
@@ -287,8 +311,9 @@ void main() {
 #ifdef SURFACE
         entry = entry_behind(view, pixel, entry);
 #else
-        entries = mix(entries, vec4(kNever), members);
-        ray = ray_after(pixel, ray, path, walk, scene, entries);
+        entries = mix(entries, vec4(kNever), greaterThan(members, vec4(0.5)));
+        ray.entry = entry;
+        ray = ray_after(ray, path, walk, scene, entries);
 #endif
 #endif
     }
@@ -297,11 +322,8 @@ void main() {
     if (through.x < 0.5) {
         out_data.x = min(half_way, farthest) * view.axis;
 #ifdef AOV
-#ifdef COLUMNS
-        float tier = kTierShell;
-#else
-        float tier = abs(view.way.x) > abs(view.way.z) ? kTierSliceX : kTierSliceZ;
-#endif
+        float slice = abs(view.way.x) > abs(view.way.z) ? kTierSliceX : kTierSliceZ;
+        float tier = shows_columns() ? kTierShell : slice;
         out_data.yz = vec2(tier, 0.5);
         out_tangent = vec4(0.0, 1.0, 0.0, 0.0);
         out_normal = vec4(normal, 0.0);

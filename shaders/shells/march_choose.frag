@@ -27,6 +27,9 @@ void main() {
 #endif
     gl_FragDepth = 0.0;
     if (entry.distance < kNever) {
+#ifndef SURFACE
+        entry = settled(view, entry);
+#endif
         MarchPath path = path_of(view, entry);
         bool crest = edge || at_crest(path);
         if (crest || entry.distance + 1.2 * ground_reach(path) >

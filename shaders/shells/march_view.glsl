@@ -40,8 +40,9 @@ struct Entry {
     vec4 ground;    // slope (of a mesh: unused; room), density, tint
     vec4 air;       // wind, canopy_sway
 #ifndef SURFACE
-    float lying;   // factor on heights where stems lie (lying_height)
-    float aligned; // Sway's
+    float lying;     // factor on heights where stems lie (lying_height)
+    float aligned;   // Sway's
+    bool comes_down; // not looked at yet: what stands there may be lower than `height` (settled)
 #endif
 #ifdef SURFACE
     SurfaceFrame frame; // the patch's axes there, in the world
@@ -69,20 +70,51 @@ vec4 ground_under(vec2 xz) {
     return vec4(-ground.normal.xz / max(ground.normal.y, 0.1), ground.density, ground.tint);
 }
 
+// Does what stands somewhere differ from what the canopy's surface was drawn by?
+bool is_uneven() {
+    return has_tracks() || has_heights();
+}
+
+// Height over the ground at which rays come into the canopy from above.
+float canopy_top(vec2 wind) {
+    float canopy = frame.canopy_m;
+    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
+}
+
+// Where the ray comes through the canopy's upper surface from above.
+Entry entry_from_above(View view, ivec2 pixel) {
+    float depth = texelFetch(canopy_depth, pixel, 0).r;
+    float distance_m = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
+    vec4 ground = texelFetch(canopy_ground, pixel, 0);
+    if (frame.mask_mode !=
+        kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
+        vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
+        ground.z = mask_density(xz, distance_m / frame.focal_px) * frame.density_scale;
+    }
+    vec4 air = texelFetch(canopy_air, pixel, 0);
+    float height = is_uneven() ? canopy_top(air.xy) : frame.canopy_m;
+    return Entry(distance_m, height, ground, air, 1.0, 1.0, is_uneven());
+}
+
+Entry entry_of(View view, ivec2 pixel) {
+    if (eye_place.x > 0.5) { // the eye stands in the canopy
+        return Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0, has_heights());
+    }
+    return entry_from_above(view, pixel);
+}
+
 // Tracks and classes are finer than the vertices that the canopy's surface was drawn by, which know
 // the wind alone and stand as high as the highest class: the ray goes on down to the top of what
-// stands where it is, or comes to the side of what stands beside it. `from`: height of its entry
-// (m).
+// stands where it is, or comes to the side of what stands beside it.
 const int kTrackSteps = 4;
 const int kLandSteps = 10;
 const float kTrackReach = 1.0; // of canopies that a ray comes down while it is stopped: no more of
                                // a long footprint is seen at once
-Entry entry_on_track(View view, Entry entry, float from) {
+Entry come_down(View view, Entry entry) {
     float canopy = frame.canopy_m;
     float fall = max(dot(entry.ground.xy, view.way.xz) - view.way.y, 0.02);
     vec4 standing = entry.air;
     TrackSeen track = track_nothing();
-    entry.height = from;
     int most = has_heights() ? kLandSteps : kTrackSteps;
     float longest = 0.3 * canopy; // no farther at once: something may stand there
     float down = 0.0;
@@ -137,35 +169,28 @@ Entry entry_on_track(View view, Entry entry, float from) {
     return entry;
 }
 
-// Height over the ground at which rays come into the canopy from above.
-float canopy_top(vec2 wind) {
-    float canopy = frame.canopy_m;
-    return highest() * (canopy + bend_offset(canopy, canopy, wind, frame.wind.response).y);
+// An entry as it is marched from. The one call of come_down(), by far the longest function here:
+// compilers write every call out.
+Entry settled(View view, Entry entry) {
+    if (entry.comes_down && entry.distance < kNever) {
+        return come_down(view, entry);
+    }
+    return entry;
 }
 
-// Where the ray comes through the canopy's upper surface from above.
-Entry entry_from_above(View view, ivec2 pixel) {
-    float depth = texelFetch(canopy_depth, pixel, 0).r;
-    float distance_m = depth > 0.0 ? frame.near_m / (depth * view.axis) : kNever;
-    vec4 ground = texelFetch(canopy_ground, pixel, 0);
-    if (frame.mask_mode !=
-        kMaskNone) { // a mask is finer than the vertices that the surface was drawn by
-        vec2 xz = frame.eye.xz + view.way.xz * min(distance_m, kFarthest);
-        ground.z = mask_density(xz, distance_m / frame.focal_px) * frame.density_scale;
-    }
-    Entry entry =
-        Entry(distance_m, frame.canopy_m, ground, texelFetch(canopy_air, pixel, 0), 1.0, 1.0);
-    bool uneven = has_tracks() || has_heights();
-    return uneven && distance_m < kNever ? entry_on_track(view, entry, canopy_top(entry.air.xy))
-                                         : entry;
+// Slope and curvature of a path as the whole pixel (m wide) has them: at a crest the ground turns
+// away within it, from 2 sqrt(pixel z) to level, and a ray through its middle would show now the
+// one, now the other. Where a pixel is higher than the canopy, whose fringe is then no more to be
+// seen.
+const float kCrestMean = 4.0 / 3.0; // mean of 2 sqrt(h) over h from 0 to 1
+const float kCrestCurve = 1e-9;     // of the mean (1/m): none, and a mark
+vec2 crest_mean(vec2 slope_curve, float pixel) {
+    float fringe = smoothstep(0.5, 1.5, pixel / frame.canopy_m);
+    float mean = fringe * kCrestMean * sqrt(pixel * max(slope_curve.y, 0.0));
+    return -slope_curve.x < mean ? vec2(-mean, kCrestCurve) : slope_curve;
 }
-
-Entry entry_of(View view, ivec2 pixel) {
-    if (eye_place.x > 0.5) { // the eye stands in the canopy
-        Entry entry = Entry(frame.near_m, eye_place.y, eye_ground, eye_air, 1.0, 1.0);
-        return has_heights() ? entry_on_track(view, entry, eye_place.y) : entry;
-    }
-    return entry_from_above(view, pixel);
+bool is_crest_mean(MarchPath path) {
+    return path.height.z == kCrestCurve;
 }
 
 MarchPath path_of(View view, Entry entry) {
@@ -183,8 +208,7 @@ MarchPath path_of(View view, Entry entry) {
     float most = 40.0 * canopy + 0.02 * entry.distance;
     float reach = fall < 0.0 ? min(height / -fall, most) : most;
     float lying = 1.0;
-    if (has_tracks() ||
-        has_heights()) { // heights are counted as they were before the stems lay down
+    if (is_uneven()) { // heights are counted as they were before the stems lay down
         path.bend.xy *= entry.aligned;
         lying = entry.lying;
         height = min(entry.height / lying, path.bend.w);
@@ -198,6 +222,7 @@ MarchPath path_of(View view, Entry entry) {
         vec2 ahead = at.xz + reach * view.way.xz;
         float rise = ground_at(ahead) - ground_at(at.xz) - dot(entry.ground.xy, ahead - at.xz);
         path.height.z = -rise / (reach * reach * lying);
+        path.height.yz = crest_mean(path.height.yz, entry.distance / frame.focal_px);
     }
     return path;
 }

@@ -111,6 +111,11 @@ float ground_reach(MarchPath path) {
                : kNever;
 }
 
+// Of a hill alone.
+bool is_crest_mean(MarchPath path) {
+    return false;
+}
+
 Light light_at(Entry entry) {
     Light light = light_under(frame.light, 0.5 + 0.5 * entry.frame.up.y);
     light.to_sun.xyz = to_surface(entry.frame, light.to_sun.xyz);

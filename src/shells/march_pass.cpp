@@ -100,11 +100,10 @@ std::vector<std::string> MarchPass::Variant::with(std::vector<std::string> defin
 MarchPass::Kinds::Kinds(const Variant& variant)
     : columns(marcher("columns", variant.with({"COLUMNS"}))),
       slabs(marcher("slabs", variant.with({}))),
-      crest_columns(marcher("columns at crests", variant.with({"COLUMNS", "CREST"}))),
-      crest_slabs(marcher("slabs at crests", variant.with({"CREST"}))) {}
+      crests(marcher("march at crests", variant.with({"CREST"}))) {}
 
 void MarchPass::Kinds::reload() {
-    for (gl::Program* program : {&columns, &slabs, &crest_columns, &crest_slabs}) {
+    for (gl::Program* program : {&columns, &slabs, &crests}) {
         program->reload();
     }
 }
@@ -262,11 +261,11 @@ void MarchPass::execute(const Inputs& inputs) {
     glDepthMask(GL_FALSE);
     glBeginQuery(GL_SAMPLES_PASSED, queries_[0]);
     for (int kind = 0; kind < shared::kMarchSets; ++kind) {
-        draw_kind(kind, kinds.slabs, kinds.crest_slabs, inputs);
+        draw_kind(kind, kinds.slabs, kinds.crests, inputs);
     }
     glEndQuery(GL_SAMPLES_PASSED);
     glBeginQuery(GL_SAMPLES_PASSED, queries_[1]);
-    draw_kind(shared::kMarchColumns, kinds.columns, kinds.crest_columns, inputs);
+    draw_kind(shared::kMarchColumns, kinds.columns, kinds.crests, inputs);
     glEndQuery(GL_SAMPLES_PASSED);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_GREATER);

@@ -102,8 +102,8 @@ private:
     };
     struct Kinds {
         explicit Kinds(const Variant& variant);
-        gl::Program columns, slabs;             ///< of rays that end in the canopy
-        gl::Program crest_columns, crest_slabs; ///< of those that may leave it and come to another
+        gl::Program columns, slabs; ///< of rays that end in the canopy
+        gl::Program crests; ///< of those that may leave it and come to another, whatever their kind
         void reload();
     };
     void draw_kind(int kind, const gl::Program& plain, const gl::Program& crest,
