@@ -42,10 +42,19 @@ bool on_drawn_ground(View view, float last, float height) {
            at.y - ground_at(at.xz) < height + (kBeside + 1.0 / frame.focal_px) * last;
 }
 
+// A ray of some of the pixel's samples.
+struct Ray {
+    View view;
+    Entry entry;
+    vec4 members; // 1: these samples
+    bool fresh;   // to be found: of samples that have not entered yet, and of `members`
+};
+
 // Where the ray goes on after a stretch; distance kNever: nowhere. `scene`: distance to what stands
 // behind. `fall`: as entry_on() has it.
-Entry entry_after(View view, Entry entry, MarchPath path, MarchWalk walk, float scene,
-                  out float fall) {
+Entry entry_after(Ray ray, MarchPath path, MarchWalk walk, float scene, out float fall) {
+    View view = ray.view;
+    Entry entry = ray.entry;
     Entry next = entry;
     bool over_it = walk.layer >= kMarchLayers;
     fall = kAsDrawn;
@@ -96,14 +105,6 @@ Entry entry_on(View view, Entry entry, float fall) {
     return entry;
 }
 
-// A ray of some of the pixel's samples.
-struct Ray {
-    View view;
-    Entry entry;
-    vec4 members; // 1: these samples
-    bool fresh;   // to be found: of samples that have not entered yet, and of `members`
-};
-
 // The ray of those samples that enter the canopy nearest; what came through before goes on to the
 // same place.
 Ray nearest_ray(ivec2 pixel, vec4 came_through, vec4 entries) {
@@ -153,7 +154,7 @@ Ray ray_after(Ray ray, MarchPath path, MarchWalk walk, vec4 scene, inout vec4 en
             ray.members = walk.layer < 0 ? vec4(0.0) : ray.members;
             return ray;
         }
-        ray.entry = entry_after(ray.view, ray.entry, path, walk,
+        ray.entry = entry_after(ray, path, walk,
                                 max(max(behind.x, behind.y), max(behind.z, behind.w)), fall);
     }
     ray.entry = entry_on(ray.view, ray.entry, fall);

@@ -55,7 +55,6 @@ OVER = {
     "shaders/shared/track.h:track_change()": 6,
     "shaders/shared/track_seen.h": 225,
     "shaders/shared/wind.h:wind_tap_velocity()": 6,
-    "shaders/shells/crest_ray.glsl:ray_after()": 6,
     "shaders/shells/march.frag": 314,
     "shaders/shells/march.frag:main": 69,
     "shaders/shells/march.frag:march": 68,
