@@ -61,9 +61,10 @@ configure() {
     fi
 }
 
-# build PRESET [targets]
+# build PRESET [targets]. Paths below the repository are hidden from the compiler's cache, so that all clones share it.
 build() {
     local preset=$1
     shift
+    export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
     ninja -C "$root/build/$preset" "$@" >&2 || fail "build: preset $preset"
 }
