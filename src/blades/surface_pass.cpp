@@ -14,7 +14,7 @@ SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSp
                          const grass::GrassSet* set)
     : cull_({"SURFACE"}), shape_(set ? shared::kShapeOfSet : static_cast<float>(spec.shape),
                                  spec.tip_tau, spec.teeth, spec.tooth_depth),
-      canopy_m_(set ? set->canopy_m : static_cast<float>(spec.blade_height_m.y)),
+      canopy_m_(set ? set->canopy_m : static_cast<float>(spec.species.length_m.high)),
       thin_out_m_(set ? 0 : static_cast<float>(spec.thin_out_m)), count_(grass.blades.size()) {
     for (std::size_t first = 0; first < grass.clusters.size(); first += kPageClusters) {
         const std::size_t last = std::min(first + kPageClusters, grass.clusters.size());

@@ -45,16 +45,8 @@ void MeshGround::describe(shared::FrameConstants& frame, bool far_field) const {
         frame.anchor_tile = glm::ivec2(0);
         return;
     }
-    shared::GrassAppearance& look = frame.looks[0];
-    look.root = glm::vec3(spec_.root_colour);
-    look.dry_share = static_cast<float>(spec_.dry_share);
-    look.tip = glm::vec3(spec_.tip_colour);
-    look.variation = static_cast<float>(spec_.variation);
-    look.dry = glm::vec3(spec_.dry_colour);
-    look.translucency = static_cast<float>(spec_.translucency);
-    look.gloss = {1, 1, 0.06f, 18}; // the presets'
-    look.outline = {2, 1, 1, 1};
-    frame.canopy_m = static_cast<float>(spec_.blade_height_m.y);
+    frame.looks[0] = scene::appearance(spec_.species);
+    frame.canopy_m = static_cast<float>(spec_.species.length_m.high);
     frame.blade_width_m = static_cast<float>(mean_blade_width_m());
 }
 

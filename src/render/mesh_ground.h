@@ -31,7 +31,7 @@ public:
     [[nodiscard]] bool has_set() const { return canopy_ != nullptr; }
     [[nodiscard]] const shells::SurfaceCanopy& canopy() const { return *canopy_; }
     [[nodiscard]] double mean_blade_width_m() const {
-        return 0.5 * (spec_.blade_width_m.x + spec_.blade_width_m.y);
+        return spec_.species.width_m.mean();
     }
 
 private:

@@ -64,7 +64,8 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     for (const Species& species : preset.species)
         shares += species.share;
     for (const Species& species : preset.species)
-        set.species.push_back({species.name, species.element,
+        set.species.push_back({species.name,
+                               scene::kElementNames.at(static_cast<std::size_t>(species.element)),
                                static_cast<float>(species.share / shares), appearance(species)});
     // The numbers a reader gets are floats; the textures are drawn for those, not for their
     // doubles.
