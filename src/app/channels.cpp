@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "scene/toml_reader.h"
@@ -26,7 +27,7 @@ constexpr Range kTurn{-180, 180, "degrees"};
 constexpr Range kSide{1, kLargestSide, "pixels"};
 
 double tangent(double angle_deg) {
-    return std::tan(glm::radians(angle_deg));
+    return std::tan(angle_deg * base::kDegree);
 }
 
 Tangents read_rim(TableReader& table, glm::ivec2 size) {

@@ -27,7 +27,7 @@ public:
           records_(gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass_.blades))),
           wind_(world.scene.wind, 0), surface_({2, 2, {1000, 1000}, {0, 0, 0, 0}, {}}, 0),
           colliders_(world.scene, world.spheres, [](double, double) { return 0.0; }),
-          canopy_m_(world.scene.surface_grass.blade_height_m.y) {}
+          canopy_m_(world.scene.surface_grass.species.length_m.high) {}
 
     [[nodiscard]] blades::SurfaceSimulation simulation(blades::StepPrograms programs) const {
         return {{{&records_, grass_.clusters}},

@@ -6,6 +6,8 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
+
 namespace sward::app {
 namespace {
 
@@ -32,13 +34,9 @@ void FlyControls::step(scene::Pose& pose, const Input& input, double dt_s) {
     pose.yaw_deg = yaw - 360 * std::floor(yaw / 360);
     pose.pitch_deg = std::clamp(pitch, -kSteepest, kSteepest);
 
-    const double degree = glm::pi<double>() / 180;
-    const double sin_yaw = std::sin(pose.yaw_deg * degree),
-                 cos_yaw = std::cos(pose.yaw_deg * degree);
-    const double sin_pitch = std::sin(pose.pitch_deg * degree),
-                 cos_pitch = std::cos(pose.pitch_deg * degree);
-    const glm::dvec3 right{cos_yaw, 0, sin_yaw};
-    const glm::dvec3 forward{sin_yaw * cos_pitch, sin_pitch, -cos_yaw * cos_pitch};
+    const glm::dvec2 aside = base::Heading(pose.yaw_deg).right();
+    const glm::dvec3 right{aside.x, 0, aside.y};
+    const glm::dvec3 forward = base::direction_of(pose.yaw_deg, pose.pitch_deg);
     const glm::dvec3 way =
         right * input.move.x + glm::dvec3(0, 1, 0) * input.move.y + forward * input.move.z;
     pose.position += way * (speed_mps_ * (input.fast ? kFastFactor : 1) * dt);

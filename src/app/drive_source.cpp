@@ -16,6 +16,7 @@
 #include "app/model_files.h"
 #include "app/paths.h"
 #include "app/turn_angles.h"
+#include "base/angles.h"
 #include "drive/vehicle.h"
 #include "drive/vehicle_mesh.h"
 #include "render/world.h"
@@ -113,7 +114,7 @@ public:
         const glm::dvec3 end = state.position - ahead * (side * spec_.size_m.z / 2);
         blower.place = {end.x, end.z};
         blower.velocity = over;
-        blower.yaw_deg = glm::degrees(std::atan2(over.x, -over.y));
+        blower.yaw_deg = std::atan2(over.x, -over.y) / base::kDegree;
         blower.speed_mps = std::min(speed, 300.0);
         // As wide as a disc of that drag is.
         blower.radius_m = std::max(0.3, std::sqrt(spec_.drag_m2 / glm::pi<double>()));

@@ -4,17 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
+
 namespace sward::app {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 
 } // namespace
 
 Eye::Eye(const scene::Pose& pose, glm::dvec2 size) : position_(pose.position), size_(size) {
-    const double yaw = pose.yaw_deg * kDegree, pitch = pose.pitch_deg * kDegree;
-    ahead_ = {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
-    right_ = {std::cos(yaw), 0, std::sin(yaw)};
+    ahead_ = base::direction_of(pose.yaw_deg, pose.pitch_deg);
+    const glm::dvec2 aside = base::Heading(pose.yaw_deg).right();
+    right_ = {aside.x, 0, aside.y};
     up_ = glm::cross(right_, ahead_);
     focal_ = 0.5 * std::max(size.y, 1.0) / std::tan(0.5 * pose.fov_deg * kDegree);
 }

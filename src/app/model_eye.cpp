@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/controls.h"
+#include "base/angles.h"
 
 namespace sward::app {
 namespace {
@@ -32,9 +33,8 @@ void ModelEye::come_round(double yaw_deg, const Chase& chase, double dt_s) {
 
 void ModelEye::put_behind(ViewPose& view, const glm::dvec3& model, const Chase& chase,
                           const Land& land) const {
-    const double yaw = (chase_yaw_ + look_.x) * kDegree;
-    const glm::dvec3 at =
-        model + glm::dvec3(-std::sin(yaw) * chase.back_m, chase.up_m, std::cos(yaw) * chase.back_m);
+    const glm::dvec2 back = base::Heading(chase_yaw_ + look_.x).back() * chase.back_m;
+    const glm::dvec3 at = model + glm::dvec3(back.x, chase.up_m, back.y);
     put_on_board(view, at, {chase_yaw_, chase.pitch_deg, 0}, land);
 }
 

@@ -34,7 +34,7 @@ void add_model_mesh(render::World& world, const std::string& name, const scene::
                     const glm::dvec3& colour) {
     world.meshes.insert_or_assign(name, mesh);
     scene::ObjectSpec object;
-    object.kind = "mesh";
+    object.kind = scene::ObjectKind::kMesh;
     object.mesh = name;
     object.colour = colour;
     object.collides = false;

@@ -7,10 +7,12 @@
 #include <fmt/format.h>
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
+
 namespace sward::app {
 namespace {
 
-constexpr double kDegree = glm::pi<double>() / 180;
+using base::kDegree;
 constexpr double kHour = 15 * kDegree;            // the Earth turns so far
 constexpr double kHighestLatitude = 89 * kDegree; // at a pole there is no south
 

@@ -8,9 +8,9 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace sward::app {
+#include "base/angles.h"
 
-inline constexpr double kDegree = glm::pi<double>() / 180;
+namespace sward::app {
 
 struct Angles {
     double yaw = 0, pitch = 0, roll = 0; // degrees
@@ -20,9 +20,9 @@ struct Angles {
 [[nodiscard]] inline Angles angles_of(const glm::dquat& turn) {
     const glm::dvec3 ahead = turn * glm::dvec3(0, 0, -1), right = turn * glm::dvec3(1, 0, 0),
                      up = turn * glm::dvec3(0, 1, 0);
-    return {std::atan2(ahead.x, -ahead.z) / kDegree,
-            std::asin(std::clamp(ahead.y, -1.0, 1.0)) / kDegree,
-            std::atan2(-right.y, up.y) / kDegree};
+    return {std::atan2(ahead.x, -ahead.z) / base::kDegree,
+            std::asin(std::clamp(ahead.y, -1.0, 1.0)) / base::kDegree,
+            std::atan2(-right.y, up.y) / base::kDegree};
 }
 
 } // namespace sward::app

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <memory>
-#include <numbers>
 #include <string>
 
 #include <cpl_conv.h>
@@ -17,6 +16,7 @@
 #include "assets/assets.h"
 #include "assets/gdal_scope.h"
 #include "assets/place_finder.h"
+#include "base/angles.h"
 #include "base/error.h"
 #include "base/room.h"
 
@@ -85,7 +85,7 @@ Transformation between(const Reference& from, const Reference& to) {
 }
 
 double degrees_per_unit(const Reference& geographic) {
-    return OSRGetAngularUnits(handle(geographic), nullptr) * 180 / std::numbers::pi;
+    return OSRGetAngularUnits(handle(geographic), nullptr) / base::kDegree;
 }
 
 std::string wkt_of(const Reference& reference) {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "shared/tile_lie.h"
 
@@ -14,7 +15,6 @@ namespace sward::blades {
 namespace {
 
 constexpr double kLaidSlack_m = 1e-4; // where a root lies is rounded
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 bool finite(glm::dvec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -113,9 +113,9 @@ Colliders::Colliders(const scene::Scene& scene,
         }
         const std::size_t before = bodies_.size();
         const auto body = packed.find(object.mesh);
-        if (object.kind != "sphere" && body != packed.end()) {
+        if (object.kind != scene::ObjectKind::kSphere && body != packed.end()) {
             add_body(object, body->second.spheres);
-        } else if (object.kind == "sphere") {
+        } else if (object.kind == scene::ObjectKind::kSphere) {
             const glm::vec4 whole(0, 0, 0, static_cast<float>(object.radius_m));
             add_body(object, {&whole, 1});
         }
@@ -126,7 +126,7 @@ Colliders::Colliders(const scene::Scene& scene,
 }
 
 bool Colliders::is_mesh(const Body& body) {
-    return body.number != ~std::size_t{0} && body.object.kind != "sphere";
+    return body.number != ~std::size_t{0} && body.object.kind != scene::ObjectKind::kSphere;
 }
 
 void Colliders::set_body(std::size_t object, const glm::dmat4& world_from_body, double time_s) {
@@ -142,8 +142,10 @@ void Colliders::set_body(std::size_t object, const glm::dmat4& world_from_body, 
 
 void Colliders::add_body(const scene::ObjectSpec& object, std::span<const glm::vec4> spheres) {
     for (const glm::vec4& sphere : spheres) {
-        check_sphere(object.position + glm::dvec3(sphere), sphere.w,
-                     fmt::format("{}: [[object]] {}", file_, object.kind));
+        check_sphere(
+            object.position + glm::dvec3(sphere), sphere.w,
+            fmt::format("{}: [[object]] {}", file_,
+                        scene::kObjectKindNames.at(static_cast<std::size_t>(object.kind))));
     }
     bodies_.push_back({object, {spheres.begin(), spheres.end()}, ~std::size_t{0}, {}});
 }
@@ -159,10 +161,9 @@ glm::dmat4 Colliders::frame(const Body& body, double time_s) const {
     if (pose.agl) {
         pose.position.y += ground_(pose.position.x, pose.position.z);
     }
-    const double yaw = pose.yaw_deg * kDegree;
-    return glm::dmat4(glm::dvec4(std::cos(yaw), 0, std::sin(yaw), 0), glm::dvec4(0, 1, 0, 0),
-                      glm::dvec4(-std::sin(yaw), 0, std::cos(yaw), 0),
-                      glm::dvec4(pose.position, 1));
+    glm::dmat4 frame(base::Heading(pose.yaw_deg).turn());
+    frame[3] = glm::dvec4(pose.position, 1);
+    return frame;
 }
 
 void Colliders::set_host_spheres(std::vector<HostSphere> spheres, double time_s) {

@@ -30,6 +30,9 @@ public:
     /// `keep_total`: later pictures of one frame add to its count of survivors.
     void upload(const TileList& list, bool keep_total = false);
     [[nodiscard]] std::size_t batches() const { return (items_count_ + kBatch - 1) / kBatch; }
+    [[nodiscard]] static std::size_t batches_of(const TileList& list) {
+        return (list.items.size() + kBatch - 1) / kBatch;
+    }
     /// Culls one batch; then its survivors and draw commands are ready. Reads the depth pyramid
     /// where occlusion is tested.
     void execute(std::size_t batch, const CullTests& tests);

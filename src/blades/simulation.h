@@ -59,6 +59,7 @@ public:
     [[nodiscard]] virtual PhysicsPass& pass() = 0;
     [[nodiscard]] virtual const PhysicsPass& pass() const = 0;
     [[nodiscard]] virtual std::uint64_t blades() const = 0; ///< that have a state
+    [[nodiscard]] virtual std::size_t bytes() const { return pass().bytes(); } ///< of all buffers
     [[nodiscard]] virtual double
     reach_m() const = 0; ///< every blade nearer to one of the last eyes has one
     [[nodiscard]] std::int64_t steps() const {

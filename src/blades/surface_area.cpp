@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <numbers>
+
+#include "base/angles.h"
 
 namespace sward::blades {
 
@@ -40,7 +41,7 @@ struct Edge {
 } // namespace
 
 SurfaceArea::SurfaceArea(const scene::Mesh& mesh, double slope_deg) : mesh_(mesh) {
-    const double least_up = slope_deg >= 180 ? -2 : std::cos(slope_deg * std::numbers::pi / 180);
+    const double least_up = slope_deg >= 180 ? -2 : std::cos(slope_deg * base::kDegree);
     cumulative_.reserve(mesh.triangles.size());
     double sum = 0;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {

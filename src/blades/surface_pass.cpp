@@ -8,13 +8,11 @@
 
 namespace sward::blades {
 
-static_assert(BIND_BLADES == 0); // execute() binds a page there
-
 SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSpec& spec,
                          const grass::GrassSet* set)
     : cull_({"SURFACE"}), shape_(set ? shared::kShapeOfSet : static_cast<float>(spec.shape),
                                  spec.tip_tau, spec.teeth, spec.tooth_depth),
-      canopy_m_(set ? set->canopy_m : static_cast<float>(spec.blade_height_m.y)),
+      canopy_m_(set ? set->canopy_m : static_cast<float>(spec.species.length_m.high)),
       thin_out_m_(set ? 0 : static_cast<float>(spec.thin_out_m)), count_(grass.blades.size()) {
     for (std::size_t first = 0; first < grass.clusters.size(); first += kPageClusters) {
         const std::size_t last = std::min(first + kPageClusters, grass.clusters.size());
@@ -29,8 +27,31 @@ SurfacePass::SurfacePass(const SurfaceBlades& grass, const scene::SurfaceGrassSp
     }
 }
 
-TileList SurfacePass::select(const Page& page, const terrain::Frustum& frustum,
-                             glm::vec3 origin) const {
+std::vector<SurfacePass::Part> SurfacePass::select(const terrain::Frustum& frustum,
+                                                   glm::vec3 origin) const {
+    std::vector<Part> parts;
+    for (std::size_t page = 0; page < pages_.size(); ++page) {
+        TileList list = select_of(pages_[page], frustum, origin);
+        if (!list.items.empty()) {
+            parts.push_back({page, std::move(list)});
+        }
+    }
+    return parts;
+}
+
+void SurfacePass::begin(const Part& part, const Drawing& how, DrawPass& draw) {
+    const Page& page = pages_[part.page];
+    cull_.upload(part.list, how.keep_total);
+    page.blades.bind_storage(BIND_BLADES);
+    const float thin_out = how.thins_out ? thin_out_m_ : 0;
+    describe(cull_.program(), how.origin, thin_out);
+    describe(draw.program(), how.origin, thin_out);
+    draw.program().set("surface_shape", shape_); // which the culling has no use for
+    draw.program().set("first_cluster", static_cast<int>(page.first_cluster));
+}
+
+TileList SurfacePass::select_of(const Page& page, const terrain::Frustum& frustum,
+                                glm::vec3 origin) const {
     TileList list;
     const glm::vec3 eye = glm::vec3(reach_) - origin;
     for (const SurfaceCluster& cluster : page.clusters) {

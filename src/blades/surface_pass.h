@@ -31,46 +31,24 @@ public:
     /// looked at.
     void limit(glm::vec3 eye, float end) { reach_ = {eye, end}; }
 
-    /// Culls and draws what the view reaches, page by page and batch by batch. `origin`: of the
-    /// mesh's space, anchor-relative. `draw`: the SURFACE variant. Before: frame constants are
-    /// bound, the depth pyramid where occlusion is tested. `keep_total`: later pictures of one
-    /// frame add to its count. `pass`(name, what): runs a step under a name for timer and
-    /// statistics. `living`: null where no blade lives.
-    template<class Pass>
-    void execute(const terrain::Frustum& frustum, glm::vec3 origin, DrawPass& draw,
-                 const CullTests& tests, bool keep_total, const SurfaceSimulation* living,
-                 Pass pass) {
-        considered_ = keep_total ? considered_ : 0;
-        bool again = keep_total;
-        for (const Page& page : pages_) {
-            const TileList list = select(page, frustum, origin);
-            if (list.items.empty() && again) {
-                continue;
-            }
-            cull_.upload(list, again);
-            again = true;
-            considered_ += list.considered;
-            page.blades.bind_storage(0);
-            const float thin_out = tests.distance ? thin_out_m_ : 0;
-            describe(cull_.program(), origin, thin_out);
-            describe(draw.program(), origin, thin_out);
-            draw.program().set("surface_shape", shape_); // which the culling has no use for
-            draw.program().set("first_cluster", static_cast<int>(page.first_cluster));
-            for (std::size_t batch = 0; batch < cull_.batches(); ++batch) {
-                pass("cull blades", [&] { cull_.execute(batch, tests); });
-                pass("draw blades", [&] {
-                    if (living) {
-                        living->bind_for_drawing(); // where the culling had its own
-                    }
-                    draw.execute(cull_);
-                });
-            }
-        }
-    }
+    /// What the view reaches of a page of clusters.
+    struct Part {
+        std::size_t page = 0;
+        TileList list;
+    };
+    /// `origin`: of the mesh's space, anchor-relative.
+    [[nodiscard]] std::vector<Part> select(const terrain::Frustum& frustum, glm::vec3 origin) const;
 
-    [[nodiscard]] std::uint64_t considered() const {
-        return considered_;
-    } ///< blades of the clusters in view
+    struct Drawing {
+        glm::vec3 origin{0};
+        bool thins_out = true;   ///< with distance
+        bool keep_total = false; ///< later parts and pictures of one frame add to its count
+    };
+    /// Before the batches of a part: then each is culled, and drawn by `draw`, the SURFACE variant,
+    /// from cull(). Before: frame constants are bound, the depth pyramid where occlusion is tested.
+    void begin(const Part& part, const Drawing& how, DrawPass& draw);
+    void cull(std::size_t batch, const CullTests& tests) { cull_.execute(batch, tests); }
+
     [[nodiscard]] const CullPass& cull() const { return cull_; }
     [[nodiscard]] std::size_t count() const { return count_; }
     [[nodiscard]] std::uint64_t bytes() const; ///< of the blades and of what culls them
@@ -85,8 +63,8 @@ private:
         std::vector<SurfaceCluster> clusters; ///< `first` within the page
         std::size_t first_cluster = 0;        ///< among all
     };
-    [[nodiscard]] TileList select(const Page& page, const terrain::Frustum& frustum,
-                                  glm::vec3 origin) const;
+    [[nodiscard]] TileList select_of(const Page& page, const terrain::Frustum& frustum,
+                                     glm::vec3 origin) const;
     void describe(const gl::Program& program, glm::vec3 origin, float thin_out) const;
 
     std::vector<Page> pages_;
@@ -95,7 +73,6 @@ private:
     float canopy_m_, thin_out_m_;
     glm::vec4 reach_{0, 0, 0, 1e30f}; ///< limit()'s
     std::size_t count_;
-    std::uint64_t considered_ = 0;
 };
 
 } // namespace sward::blades

@@ -19,7 +19,7 @@ namespace {
 using base::ExitCode;
 
 // Streams of the counter-based random numbers, three numbers an index each.
-enum Stream : std::uint64_t { kSingle = 1, kCentre, kTuft, kShape };
+enum Stream : std::uint64_t { kSingle = 1, kCentre, kTuft, kShape, kTuftSize };
 
 glm::dvec3 units(std::uint64_t seed, Stream stream, std::uint64_t index) {
     return {base::hash_unit(seed, stream, 3 * index), base::hash_unit(seed, stream, 3 * index + 1),
@@ -86,21 +86,23 @@ struct Root {
 void add_tufts(SurfaceArea& area, const scene::SurfaceGrassSpec& spec, std::size_t count,
                std::vector<Root>& roots) {
     const auto seed = static_cast<std::uint64_t>(spec.seed);
-    const std::size_t wanted =
-        std::max<std::size_t>((count + static_cast<std::size_t>(spec.tuft_blades) / 2) /
-                                  static_cast<std::size_t>(spec.tuft_blades),
-                              1);
+    const auto each = static_cast<std::size_t>(std::lround(spec.species.tuft_blades.mean()));
+    const std::size_t wanted = std::max<std::size_t>((count + each / 2) / each, 1);
     // 0.7 of 1 / sqrt(density): darts jam at 0.83.
     const double apart = 0.7 * std::sqrt(area.total_m2() / static_cast<double>(wanted));
     const std::vector<SurfacePoint> centres = tuft_centres(area, wanted, apart, seed);
     area.link_neighbours();
     for (std::size_t i = 0; i < count; ++i) {
-        const SurfacePoint& centre = centres[i % centres.size()];
+        const std::size_t tuft = i % centres.size();
+        const SurfacePoint& centre = centres[tuft];
+        const double radius =
+            std::lerp(spec.species.tuft_radius_m.low, spec.species.tuft_radius_m.high,
+                      units(seed, kTuftSize, tuft).x);
         const glm::dvec3 u = units(seed, kTuft, i);
         const double turn = 2 * std::numbers::pi * u.x;
         const glm::vec3 up(area.face_normal(centre.triangle));
         const glm::dvec3 way(shared::surface_width_direction(up, static_cast<float>(turn)));
-        const SurfacePoint at = area.walk(centre, way, spec.tuft_radius_m * std::pow(u.y, 0.7));
+        const SurfacePoint at = area.walk(centre, way, radius * std::pow(u.y, 0.7));
         roots.push_back({at, area.normal(at), centre.place - at.place});
     }
 }
@@ -123,11 +125,12 @@ shared::SurfaceBlade make_blade(const Root& root, const scene::SurfaceGrassSpec&
                                 std::uint64_t index) {
     const auto seed = static_cast<std::uint64_t>(spec.seed);
     const glm::dvec3 u = units(seed, kShape, 2 * index), w = units(seed, kShape, 2 * index + 1);
-    const auto height =
-        static_cast<float>(glm::mix(spec.blade_height_m.x, spec.blade_height_m.y, u.x));
-    const auto half_width =
-        static_cast<float>(0.5 * glm::mix(spec.blade_width_m.x, spec.blade_width_m.y, u.y));
-    const auto stiffness = static_cast<float>(glm::mix(spec.stiffness.x, spec.stiffness.y, u.z));
+    const auto in = [](const scene::Span& span, double share) {
+        return glm::mix(span.low, span.high, share);
+    };
+    const auto height = static_cast<float>(in(spec.species.length_m, u.x));
+    const auto half_width = static_cast<float>(0.5 * in(spec.species.width_m, u.y));
+    const auto stiffness = static_cast<float>(in(spec.species.stiffness, u.z));
     const auto turn = static_cast<float>(turn_of(root, spec.tuft_gather, w.x));
     const glm::vec3 up(root.up);
     const glm::vec3 across = shared::surface_width_direction(up, turn);

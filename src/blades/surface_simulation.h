@@ -48,7 +48,9 @@ public:
     }
     /// What the drawing of blades reads.
     void bind_for_drawing() const;
-    [[nodiscard]] std::size_t bytes() const { return pass_.bytes() + slot_buffer_.bytes(); }
+    [[nodiscard]] std::size_t bytes() const override {
+        return pass_.bytes() + slot_buffer_.bytes();
+    }
 
 private:
     [[nodiscard]] bool no_room() const override { return cluster_of_.empty(); }

@@ -8,6 +8,7 @@
 #include <btBulletDynamicsCommon.h>
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
 #include "drive/ground_rays.h"
 
 namespace sward::drive {
@@ -99,9 +100,9 @@ struct Vehicle::Inside {
             glm::dvec3(x, land.height(x, z) + spec.mass_height_m + 0.05, z) - origin;
         btTransform place;
         place.setOrigin(to_bullet(at));
-        place.setRotation(btQuaternion(
-            btVector3(0, 1, 0),
-            static_cast<btScalar>(glm::pi<double>() - yaw_deg * glm::pi<double>() / 180)));
+        place.setRotation(
+            btQuaternion(btVector3(0, 1, 0),
+                         static_cast<btScalar>(glm::pi<double>() - yaw_deg * base::kDegree)));
         body->setWorldTransform(place);
         body->setInterpolationWorldTransform(place);
         body->setLinearVelocity({0, 0, 0});
@@ -164,7 +165,7 @@ struct Vehicle::Inside {
             vehicle->setBrake(static_cast<btScalar>(std::min(brake * share, most) * kStep_s),
                               i); // Bullet takes it as an impulse
             vehicle->setSteeringValue(
-                static_cast<btScalar>(-steer * axle.steer_deg * glm::pi<double>() / 180), i);
+                static_cast<btScalar>(-steer * axle.steer_deg * base::kDegree), i);
         }
     }
 
@@ -247,7 +248,7 @@ struct Vehicle::Inside {
         overturned_s = over && body->getLinearVelocity().length() < 1 ? overturned_s + kStep_s : 0;
         if (overturned_s > kOverturned_s) {
             const glm::dvec3 ahead = now.ahead();
-            put(at.x, at.z, std::atan2(ahead.x, -ahead.z) * 180 / glm::pi<double>());
+            put(at.x, at.z, std::atan2(ahead.x, -ahead.z) / base::kDegree);
         }
     }
 

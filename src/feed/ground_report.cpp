@@ -3,12 +3,13 @@
 
 #include <span>
 
+#include "base/angles.h"
 #include "feed/network_order.h"
 
 namespace sward::feed {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 constexpr double kBareShare = 0.05, kSparseShare = 0.5;
 constexpr std::uint32_t kMagic = 0x53574744; // "SWGD"
 constexpr std::uint32_t kFed = 1, kStands = 2;

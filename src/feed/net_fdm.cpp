@@ -4,13 +4,14 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "base/angles.h"
 #include "feed/network_order.h"
 #include "scene/ranges.h"
 
 namespace sward::feed {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 constexpr double kFoot_m = 0.3048;
 constexpr double kSteepest_rad = 90.001 * kDegree; // floats round past the pole
 constexpr double kTurn_rad = 360.001 * kDegree;

@@ -9,13 +9,14 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "base/angles.h"
 #include "base/hash.h"
 #include "scene/ranges.h"
 
 namespace sward::feed {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 constexpr std::size_t kRemembered = 2048; // packets: half a minute at 60 a second
 constexpr double kMostSpin = 20;          // rad/s; a faster one is a sender's rounding at the pole
 constexpr double kNorthStep_deg = 1e-4;   // 11 m

@@ -7,13 +7,15 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
+
 namespace sward::fly {
 namespace {
 
 using glm::dvec3;
 
 constexpr double kGravity = 9.81, kAir = 1.225; // m/s2; kg/m3 at sea level
-constexpr double kDegree = glm::pi<double>() / 180;
+using base::kDegree;
 constexpr double kSlowest_mps = 1;   // slower air gives angles no sense
 constexpr double kSag_m = 0.1;       // of a wheel under its share of the weight
 constexpr double kGearDamping = 0.5; // share of the critical one
@@ -77,7 +79,7 @@ void Aeroplane::put_in_air(const dvec3& position, double yaw_deg) {
                   glm::angleAxis(trim_attack_, dvec3(1, 0, 0));
     const glm::dvec2 wind = land_.wind ? land_.wind(position.x, position.z) : glm::dvec2(0);
     start_.velocity_mps =
-        dvec3(std::sin(yaw_deg * kDegree), 0, -std::cos(yaw_deg * kDegree)) * spec_.cruise_mps +
+        base::direction_of(yaw_deg, 0) * spec_.cruise_mps +
         dvec3(wind.x, 0, wind.y);
     begin_again();
 }

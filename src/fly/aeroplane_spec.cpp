@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "scene/toml_reader.h"
@@ -75,8 +76,7 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
     reader.finish();
     const double lift =
         2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
-    const double most =
-        spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * 3.14159265358979 / 180;
+    const double most = spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * base::kDegree;
     if (lift > 0.8 * most)
         throw reader.error(
             "cruise_mps",

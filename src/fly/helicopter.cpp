@@ -7,6 +7,8 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "base/angles.h"
+
 namespace sward::fly {
 namespace {
 
@@ -14,7 +16,7 @@ using glm::dvec2;
 using glm::dvec3;
 
 constexpr double kGravity = 9.81, kAir = 1.225; // m/s2; kg/m3 at sea level
-constexpr double kDegree = glm::pi<double>() / 180;
+using base::kDegree;
 constexpr double kFinSlope = 3;      // lift of fin and tailplane over their angle, small and stubby
 constexpr double kDamping = 0.8;     // of the pilot's help, share of the critical one
 constexpr double kStandFade_mps = 4; // from twice this speed on nothing holds it over a place

@@ -8,27 +8,16 @@
 
 #include "base/error.h"
 #include "blades/blade_twin.h"
+#include "render/elevation_ground.h"
+#include "render/mesh_ground.h"
 #include "render/pass_names.h"
+#include "render/reload.h"
 #include "shared/bindings.h"
 #include "tracks/track_mask.h"
 
 namespace sward::render {
 
 namespace {
-
-double mean_width(const grass::GrassSet& set) {
-    if (set.levels.empty()) { // a scene on a mesh, which says so itself
-        return 0;
-    }
-    if (set.blades.empty()) { // a texel is as wide as a blade
-        return set.side_m / static_cast<double>(set.levels.front().layers.width);
-    }
-    double sum = 0;
-    for (const shared::BladeRecord& blade : set.blades) {
-        sum += 2.0 * blade.v1.w;
-    }
-    return sum / static_cast<double>(std::max<std::size_t>(set.blades.size(), 1));
-}
 
 /// A scene on a mesh has level ground at its datum, which is not drawn.
 World with_ground(World world) {
@@ -103,7 +92,7 @@ FieldState::FieldState(World inputs)
     : world(with_ground(std::move(inputs))),
       response(world.grass.levels.empty() ? 0 : blades::fit_response(world.grass)),
       surface(world.elevation, world.scene.terrain.detail_m),
-      ground(std::make_shared<terrain::GroundSource>(surface, world.mask)),
+      posts(std::make_shared<terrain::GroundSource>(surface, world.mask)),
       atmosphere(world.scene.air.visibility_km),
       wind(world.scene.wind, response,
            std::make_unique<wind::Sources>(
@@ -112,20 +101,16 @@ FieldState::FieldState(World inputs)
       march_textures(world.grass.march),
       far_textures(world.far == FarScheme::kMarch ? grass::GrassSet{} : world.grass),
       far_appearance(world.grass),
-      blade_records(gl::Buffer::of(std::span<const shared::BladeRecord>(world.grass.blades))),
       colliders(world.scene, world.spheres,
                 [this](double x, double z) { return surface.height(x, z); }),
-      objects(world), mean_blade_width_m(mean_width(world.grass)),
-      frame_buffer_(sizeof(shared::FrameConstants)),
+      objects(world), frame_buffer_(sizeof(shared::FrameConstants)),
       march_light_(world.grass, !world.surface.triangles.empty()) {
     if (!world.surface.triangles.empty()) {
-        mesh_ground = std::make_unique<MeshGround>(
-            world.surface, world.scene, world.grass.levels.empty() ? nullptr : &world.grass);
-        mean_blade_width_m =
-            mesh_ground->has_set() ? mean_blade_width_m : mesh_ground->mean_blade_width_m();
+        ground = std::make_unique<MeshGround>(world.surface, world.scene,
+                                              world.grass.levels.empty() ? nullptr : &world.grass);
         world.surface = {};
     } else {
-        land_shadow = std::make_unique<terrain::LandShadow>(surface.elevation());
+        ground = std::make_unique<ElevationGround>(*this);
     }
     if (world.scene.tracks) {
         tracks = std::make_unique<tracks::Tracks>(
@@ -147,14 +132,14 @@ FieldState::FieldState(World inputs)
 DrawPasses& FieldState::passes(bool aov) {
     auto& slot = aov ? aov_passes_ : plain_passes_;
     if (!slot) {
-        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), on_mesh(),
-                                            ground->land_frame.x > 0);
+        slot = std::make_unique<DrawPasses>(aov, far_textures.block_shapes(), ground->on_charts(),
+                                            posts->land_frame.x > 0);
     }
     return *slot;
 }
 
 blades::LivingBlades* FieldState::wake(const SimulationSettings& settings, int eyes) {
-    lives_ = settings.physics && (mesh_ground || !world.grass.blades.empty());
+    lives_ = settings.physics && ground->has_blades();
     if (!lives_) {
         return nullptr;
     }
@@ -165,14 +150,10 @@ blades::LivingBlades* FieldState::wake(const SimulationSettings& settings, int e
     const bool fits = present && present->settings().pages.radius_m == wanted.pages.radius_m &&
                       present->settings().pages.most_bytes == wanted.pages.most_bytes &&
                       present->settings().pages.eyes == wanted.pages.eyes;
-    if (mesh_ground) {
-        surface_simulation =
-            fits ? std::move(surface_simulation) : mesh_ground->grass().simulation(wanted);
-        return surface_simulation.get();
+    if (!fits) {
+        ground->make_living(wanted);
     }
-    simulation = fits ? std::move(simulation)
-                      : std::make_unique<blades::Simulation>(world.grass, response, wanted);
-    return simulation.get();
+    return ground->living();
 }
 
 void FieldState::simulate(double time, std::span<const glm::dvec3> eyes,
@@ -192,12 +173,9 @@ void FieldState::simulate(double time, std::span<const glm::dvec3> eyes,
         wind.bind();
     } else {
         if (!clipmap_) {
-            clipmap_ = std::make_unique<terrain::Clipmap>(ground);
+            clipmap_ = std::make_unique<terrain::Clipmap>(posts);
         }
-        if (!mesh_ground) { // blades meet colliders on the ground that is drawn
-            clipmap_->update({eye.x, eye.z});
-            clipmap_->bind();
-        }
+        ground->bind_under_blades(*clipmap_, {eye.x, eye.z});
         Lens lens;
         lens.eye = eye;
         const Shot shot = make_shot(*clipmap_, lens, {}, glm::dvec2(0));
@@ -238,14 +216,11 @@ void FieldState::follow_light(const shared::Light& light, const shared::WindFiel
 }
 
 void FieldState::follow_shadow() {
-    if (!land_shadow) {
-        return;
-    }
     if (light_at_once || !shadow_followed_) {
-        land_shadow->follow(to_sun(), light_at_once);
+        ground->follow_sun(to_sun(), light_at_once);
         shadow_followed_ = true;
     }
-    land_shadow->bind();
+    ground->bind_shadow();
 }
 
 void FieldState::set_density(double density) {
@@ -253,7 +228,7 @@ void FieldState::set_density(double density) {
         throw base::Error(base::ExitCode::kBadInput,
                           fmt::format("density: found {}, expected 0 to 1", density));
     }
-    if (mesh_ground) {
+    if (ground->placed_for_good()) {
         throw base::Error(base::ExitCode::kUsage, "density: found a scene on a mesh, whose blades "
                                                   "are placed for good, expected one on elevation");
     }
@@ -293,7 +268,7 @@ void FieldState::add_stats(FrameStats& stats) const {
         stats.blades_simulated = alive->blades();
         stats.patches_stepped = alive->pass().stepped_patches();
         stats.physics_steps = static_cast<std::uint64_t>(alive->steps());
-        stats.physics_bytes = mesh_ground ? surface_simulation->bytes() : alive->pass().bytes();
+        stats.physics_bytes = alive->bytes();
         stats.sphere_pairs = alive->sphere_pairs();
     }
     if (tracks) {
@@ -301,29 +276,18 @@ void FieldState::add_stats(FrameStats& stats) const {
         stats.track_bytes = tracks->bytes();
         stats.track_memory_bytes = tracks->memory().bytes();
     }
-    if (mesh_ground) {
-        stats.surface_bytes = mesh_ground->grass().bytes();
-    }
+    ground->add_stats(stats);
 }
 
 void DrawPasses::reload(std::vector<std::string>& failures) {
-    const auto attempt = [&](auto& pass) {
-        try {
-            pass.reload();
-        } catch (const base::Error& error) {
-            failures.emplace_back(error.what());
-        }
-    };
-    attempt(terrain);
-    attempt(blades);
-    attempt(shells);
-    attempt(slices);
-    attempt(march);
-    attempt(screen);
-    attempt(meshes);
-    if (surface_) {
-        attempt(*surface_);
-    }
+    render::reload(&terrain, failures);
+    render::reload(&blades, failures);
+    render::reload(&shells, failures);
+    render::reload(&slices, failures);
+    render::reload(&march, failures);
+    render::reload(&screen, failures);
+    render::reload(&meshes, failures);
+    render::reload(surface_.get(), failures);
 }
 
 blades::DrawPass& DrawPasses::surface(bool aov) {
@@ -340,46 +304,12 @@ void FieldState::reload(std::vector<std::string>& failures) {
         }
     }
     ++reloads;
-    for (auto part : {+[](FieldState& f) {
-                          f.ground->height_program.reload();
-                          f.ground->surface_program.reload();
-                      },
-                      +[](FieldState& f) { f.cull.reload(); },
-                      +[](FieldState& f) {
-                          if (f.sample_cull) {
-                              f.sample_cull->reload();
-                          }
-                      },
-                      +[](FieldState& f) {
-                          if (f.simulation) {
-                              f.simulation->pass().reload();
-                          }
-                      },
-                      +[](FieldState& f) {
-                          if (f.surface_simulation) {
-                              f.surface_simulation->pass().reload();
-                          }
-                      },
-                      +[](FieldState& f) {
-                          if (f.mesh_ground) {
-                              f.mesh_ground->grass().reload();
-                          }
-                      },
-                      +[](FieldState& f) {
-                          if (f.tracks) {
-                              f.tracks->reload();
-                          }
-                      },
-                      +[](FieldState& f) {
-                          f.wind.reload();
-                          f.sources().reload();
-                      }}) {
-        try {
-            part(*this);
-        } catch (const base::Error& error) {
-            failures.emplace_back(error.what());
-        }
-    }
+    render::reload(&posts->height_program, failures);
+    render::reload(&posts->surface_program, failures);
+    ground->reload(failures);
+    render::reload(tracks.get(), failures);
+    render::reload(&wind, failures);
+    render::reload(&sources(), failures);
     if (clipmap_) {
         clipmap_->refill();
     }

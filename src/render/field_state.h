@@ -7,15 +7,13 @@
 #include <vector>
 
 #include "blades/colliders.h"
-#include "blades/cull_pass.h"
-#include "blades/sample_cull.h"
 #include "blades/simulation.h"
 #include "gl/pass.h"
 #include "lod/lod.h"
 #include "render/atmosphere.h"
 #include "render/draw_passes.h"
+#include "render/ground.h"
 #include "render/lens.h"
-#include "render/mesh_ground.h"
 #include "render/objects.h"
 #include "render/settings.h"
 #include "shells/far_appearance.h"
@@ -24,7 +22,6 @@
 #include "shells/march_textures.h"
 #include "terrain/clipmap.h"
 #include "terrain/detail.h"
-#include "terrain/land_shadow.h"
 #include "terrain/terrain_pass.h"
 #include "tracks/tracks.h"
 #include "wind/sources.h"
@@ -59,7 +56,7 @@ struct FieldState {
                                  const FrameSettings& settings, glm::dvec2 jitter) const;
     /// The blades that live since simulate(); null where none does.
     [[nodiscard]] const blades::LivingBlades* living() const {
-        return lives_ ? asleep_or_living() : nullptr;
+        return lives_ ? ground->living() : nullptr;
     }
     [[nodiscard]] DrawPasses& passes(bool aov);
     /// The march's light, brought up to date: by a part a frame, whichever view asks first.
@@ -85,34 +82,23 @@ struct FieldState {
     [[nodiscard]] wind::Sources& sources() const {
         return static_cast<wind::Sources&>(*wind.inputs());
     }
-    [[nodiscard]] bool on_mesh() const { return mesh_ground != nullptr; }
 
     World world;
     double response; ///< bend per m/s of the set's mean blade
     terrain::Surface surface;
-    std::shared_ptr<terrain::GroundSource> ground;
-    mutable Atmosphere atmosphere;                    ///< keeps the last sun's light
-    std::unique_ptr<terrain::LandShadow> land_shadow; ///< of a scene on elevation
+    std::shared_ptr<terrain::GroundSource> posts; ///< that clipmaps are filled from
+    mutable Atmosphere atmosphere;                ///< keeps the last sun's light
     wind::Wind wind;
     shells::MarchTextures march_textures;
     shells::FarTextures far_textures; ///< of the raster schemes, where the world wants them
     shells::FarAppearance far_appearance;
     terrain::BlockMesh block_mesh;
-    gl::Buffer blade_records;
-    blades::CullPass cull;
-    std::unique_ptr<blades::SampleCull>
-        sample_cull; ///< of the reference; made for the first picture that wants it
     blades::Colliders colliders;
-    std::unique_ptr<MeshGround> mesh_ground; ///< a scene on a mesh: no field on elevation
-    std::unique_ptr<blades::Simulation>
-        simulation; ///< of the set's blades; made for the first frame that wants it
-    std::unique_ptr<blades::SurfaceSimulation>
-        surface_simulation;                 ///< of a mesh's; goes before its ground
+    std::unique_ptr<Ground> ground;
     std::unique_ptr<tracks::Tracks> tracks; ///< of a scene that has some
     Objects objects;
     mutable gl::PassTimers timers; ///< of simulate(); reading their queries changes nothing
     double time_s = 0;
-    double mean_blade_width_m = 0;
     const ViewState* counted = nullptr; ///< the view drawn last: the passes' counters are its
     int reloads = 0;                    ///< of the shaders that clipmaps share
     bool light_at_once = false; ///< a change of light is followed whole by the next picture: none
@@ -121,13 +107,8 @@ struct FieldState {
 private:
     [[nodiscard]] blades::LivingBlades* wake(const SimulationSettings& settings, int eyes);
     [[nodiscard]] double away_from_eyes(glm::dvec3 place) const;
-    [[nodiscard]] const blades::LivingBlades* asleep_or_living() const {
-        return mesh_ground ? static_cast<const blades::LivingBlades*>(surface_simulation.get())
-                           : simulation.get();
-    }
 
-    void light_shot(shared::FrameConstants& out, const glm::dvec3& eye,
-                    const glm::dvec2& anchor) const;
+    void light_shot(shared::FrameConstants& out, const glm::dvec3& eye) const;
     void track(double time_s, std::span<const glm::dvec3> eyes);
 
     bool lives_ = false; ///< the last simulate() wanted it

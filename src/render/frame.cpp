@@ -16,8 +16,15 @@ void Frame::run(const char* name, bool wanted, Step step) {
     }
 }
 
+void Frame::run(const char* name, bool wanted, GroundStep step) {
+    if (wanted) {
+        const gl::PassScope pass(v_.timers, name);
+        (ground_.get()->*step)();
+    }
+}
+
 void Frame::draw() {
-    for (picture_ = 0; picture_ < pictures_; ++picture_) {
+    for (at_.number = 0; at_.number < at_.pictures; ++at_.number) {
         draw_picture();
     }
     run(kToneMap, host_.display, &Frame::tone_map);
@@ -26,36 +33,34 @@ void Frame::draw() {
 
 void Frame::draw_picture() {
     begin_picture(); // uploads the constants that every pass below reads
-    run(kClipmap, on_elevation(), &Frame::update_clipmap);
-    run(kLandShadow, on_elevation(), &Frame::follow_shadow);
+    run(kClipmap, has_blocks(), &GroundPicture::update_clipmap);
+    run(kLandShadow, has_blocks(), &GroundPicture::follow_shadow);
     run(kFarAppearance, rasterises(), &Frame::update_far_appearance);
-    run(kSelectBlocks, on_elevation(), &Frame::select_blocks);
+    run(kSelectBlocks, has_blocks(), &GroundPicture::select_blocks);
     run(kSelectFar, rasterises(), &Frame::select_far);
-    run(kBlockSamples, on_elevation(), &Frame::sample_blocks);
+    run(kBlockSamples, has_blocks(), &GroundPicture::sample_blocks);
     begin_scene(); // targets, GL state, clear colour and depth
     run(kHostScene, host_.takes_scene(), &Frame::take_host_scene);
     run(kObjects, f_.objects.count() > 0, &Frame::draw_objects);
-    run(kSurface, on_mesh() && s_.terrain, &Frame::draw_surface);
-    run(kTerrain, on_elevation() && s_.terrain, &Frame::draw_terrain);
+    run(ground_->draw_name(), s_.terrain, &GroundPicture::draw); // kTerrain, kSurface
     run(kDepthPyramid, has_blades() && s_.cull.occlusion && !sampled(), &Frame::build_pyramid);
-    run(kSelectBlades, on_elevation() && has_blades() && !sampled(), &Frame::select_blades);
-    while (next_batch()) {
-        run(kCullBlades, true, &Frame::cull_batch);
-        run(kDrawBlades, true, &Frame::draw_batch);
+    run(kSelectBlades, has_blades() && !sampled(), &GroundPicture::select_blades);
+    while (has_blades() && ground_->next_batch()) {
+        run(kCullBlades, true, &GroundPicture::cull_batch);
+        run(kDrawBlades, true, &GroundPicture::draw_batch);
     }
-    run(kChooseBlades, begins_round(), &Frame::choose_blades);
-    while (next_gathered()) {
-        run(kGatherBlades, true, &Frame::gather_batch);
-        run(kSiftBlades, s_.cull.occlusion, &Frame::sift_batch);
-        run(kDrawBlades, true, &Frame::draw_gathered);
+    run(kChooseBlades, has_blades() && ground_->begins_round(), &GroundPicture::choose_blades);
+    while (has_blades() && ground_->next_gathered()) {
+        run(kGatherBlades, true, &GroundPicture::gather_batch);
+        run(kSiftBlades, s_.cull.occlusion, &GroundPicture::sift_batch);
+        run(kDrawBlades, true, &GroundPicture::draw_gathered);
     }
-    draw_surface_blades(); // kCullBlades and kDrawBlades in turn, of a mesh
     run(kShells, rasterises() && s_.shells, &Frame::draw_shells);
     run(kSlices, rasterises() && s_.slices, &Frame::draw_slices);
     run(kSky, s_.sky, &Frame::draw_sky);
     run(kResolve, true, &Frame::resolve);
     run(kFarLight, marches(), &Frame::follow_light);
-    run(kCanopy, marches(), &Frame::draw_canopy);
+    run(kCanopy, marches(), &GroundPicture::draw_canopy);
     run(kFarField, marches(), &Frame::march);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/angles.h"
 #include "render/field_state.h"
 #include "shared/bend.h"
 #include "shared/sward.h"
@@ -11,7 +12,6 @@ namespace sward::render {
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 // Width correction (J8) begins below wmin + wspan pixels: only where blades are far thinner than at
 // the hand-over, since a widened blade covers more than its shell image would.
 constexpr float kWidthMin_px = 0.1f, kWidthSpan_px = 0.35f;
@@ -19,11 +19,6 @@ constexpr float kLivingFade = 0.8f; // of the reach of living blades: beyond, th
                                     // grouped one, in which they begin
 constexpr float kSegment_px =
     18; // longer is cheaper; a blade's curve is nearly flat over so many pixels
-
-glm::dvec3 direction(double yaw_deg, double pitch_deg) {
-    const double yaw = yaw_deg * kDegree, pitch = pitch_deg * kDegree;
-    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
-}
 
 /// World, relative to the eye, to clip coordinates. `jitter` in pixels.
 glm::dmat4 clip_from_eye(const Lens& lens, const FrameSettings& settings, glm::dvec2 jitter) {
@@ -93,17 +88,13 @@ double flutter_time(double time_s) {
 } // namespace
 
 glm::dvec3 FieldState::to_sun() const {
-    return direction(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg);
+    return base::direction_of(world.scene.sun.azimuth_deg, world.scene.sun.elevation_deg);
 }
 
-void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye,
-                            const glm::dvec2& anchor) const {
+void FieldState::light_shot(shared::FrameConstants& out, const glm::dvec3& eye) const {
     const Atmosphere::Day& day = atmosphere.at(to_sun());
     out.light = day.light;
     out.air = Atmosphere::thinned(day.air, eye.y - surface.range().x);
-    if (land_shadow) {
-        land_shadow->describe(out, anchor);
-    }
 }
 
 Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
@@ -119,9 +110,9 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
     const double focal_px = lens.focal_px(settings.width, settings.height);
     const double texel_m =
         set.levels.empty() ? 0 : static_cast<double>(set.side_m) / set.levels[0].layers.width;
-    shot.bands =
-        lod::bands({}, {focal_px, mean_blade_width_m, texel_m, static_cast<int>(set.levels.size())},
-                   world.scene.lod);
+    shot.bands = lod::bands(
+        {}, {focal_px, ground->blade_width_m(), texel_m, static_cast<int>(set.levels.size())},
+        world.scene.lod);
 
     shared::FrameConstants& out = shot.constants;
     const glm::dvec3 eye_here = eye - shot.anchor;
@@ -136,7 +127,7 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
     out.flutter_time = static_cast<float>(flutter_time(time_s));
 
     describe_set(out, set, anchor);
-    out.blade_width_m = static_cast<float>(mean_blade_width_m);
+    out.blade_width_m = static_cast<float>(ground->blade_width_m());
     out.density_scale = static_cast<float>(world.scene.grass.density);
     out.anchor_height_m = static_cast<float>(shot.anchor.y);
     fill_bands(out, shot.bands, settings);
@@ -146,10 +137,8 @@ Shot FieldState::make_shot(const terrain::Clipmap& clipmap, const Lens& lens,
         settings.tiers == Tiers::kShells ? 0 : static_cast<double>(out.handover_band.y) + aside);
     clipmap.describe(out, anchor);
     out.picture_px = {settings.width, settings.height};
-    if (mesh_ground) {
-        mesh_ground->describe(out, settings.far == FarScheme::kMarch);
-    }
-    light_shot(out, eye, anchor);
+    ground->describe(out, anchor, settings.far == FarScheme::kMarch);
+    light_shot(out, eye);
     out.wind = wind.field(anchor, time_s);
     if (tracks) {
         out.tracks = tracks->field(anchor);

@@ -6,17 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 
 namespace sward {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
-glm::dvec3 direction(double yaw_deg, double pitch_deg) {
-    const double yaw = yaw_deg * kDegree, pitch = pitch_deg * kDegree;
-    return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), -std::cos(yaw) * std::cos(pitch)};
-}
+using base::kDegree;
 
 base::Error unfit(const char* what, const std::string& found, const char* expected) {
     return {base::ExitCode::kBadInput,
@@ -46,8 +42,8 @@ glm::dmat4 view_from_world(const CameraPose& pose) {
     check("yaw_deg", pose.yaw_deg, -1e9, 1e9, "a finite number of degrees");
     check("pitch_deg", pose.pitch_deg, -90, 90, "-90 to 90 degrees");
     check("roll_deg", pose.roll_deg, -1e9, 1e9, "a finite number of degrees");
-    const glm::dvec3 ahead = direction(pose.yaw_deg, pose.pitch_deg);
-    glm::dvec3 right = direction(pose.yaw_deg + 90, 0);
+    const glm::dvec3 ahead = base::direction_of(pose.yaw_deg, pose.pitch_deg);
+    glm::dvec3 right = base::direction_of(pose.yaw_deg + 90, 0);
     glm::dvec3 up = glm::cross(right, ahead);
     if (pose.roll_deg != 0) {
         const double c = std::cos(pose.roll_deg * kDegree), s = std::sin(pose.roll_deg * kDegree);

@@ -8,6 +8,8 @@
 
 #include <epoxy/gl.h>
 
+#include "base/angles.h"
+
 namespace sward::render {
 
 namespace {
@@ -80,9 +82,7 @@ scene::Mesh unit_sphere() {
 }
 
 glm::mat3 yaw_turn(double yaw_deg) {
-    const double yaw = yaw_deg * std::numbers::pi / 180;
-    const auto c = static_cast<float>(std::cos(yaw)), s = static_cast<float>(std::sin(yaw));
-    return {{c, 0, s}, {0, 1, 0}, {-s, 0, c}};
+    return glm::mat3(base::Heading(yaw_deg).turn());
 }
 
 MeshPass::MeshPass(bool aov)

@@ -5,7 +5,7 @@ namespace sward::render {
 
 Objects::Objects(const World& world) : placed_(world.scene.objects.size()) {
     for (const scene::ObjectSpec& object : world.scene.objects) {
-        if (object.kind == "sphere" && !meshes_.contains({})) {
+        if (object.kind == scene::ObjectKind::kSphere && !meshes_.contains({})) {
             meshes_.emplace(std::filesystem::path(), unit_sphere());
         }
         const auto mesh = world.meshes.find(object.mesh);
@@ -19,7 +19,7 @@ void Objects::draw(MeshPass& pass, const scene::Scene& scene, const terrain::Sur
                    glm::dvec3 anchor, double time_s) const {
     for (std::size_t n = 0; n < scene.objects.size(); ++n) {
         const scene::ObjectSpec& object = scene.objects[n];
-        const bool ball = object.kind == "sphere";
+        const bool ball = object.kind == scene::ObjectKind::kSphere;
         const auto mesh = meshes_.find(ball ? std::filesystem::path() : object.mesh);
         if (mesh == meshes_.end() || (!ball && object.mesh.empty())) {
             continue; // a rotor, or a vehicle without a mesh

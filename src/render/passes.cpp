@@ -35,79 +35,49 @@ void set_gl_state(bool mirrored) {
     glClearBufferfv(GL_DEPTH, 0, kClear);
 }
 
-/// The reference shows all there is.
-blades::CullTests tests_of(const FrameSettings& settings) {
-    return settings.tiers == Tiers::kReference ? blades::CullTests{true, false, false, false}
-                                               : settings.cull;
-}
-
 } // namespace
 
 Frame::Frame(ViewState& view, const Camera& camera, const FrameSettings& settings,
              const HostTextures& host)
     : v_(view), f_(*view.field), s_(settings), host_(host), lens_(lens_of(camera)),
-      passes_(f_.passes(settings.aov)),
-      pictures_(settings.tiers == Tiers::kReference
-                    ? settings.reference_grid * settings.reference_grid
-                    : 1) {}
+      passes_(f_.passes(settings.aov)), at_{view, f_, settings, passes_,
+                                            settings.tiers == Tiers::kReference
+                                                ? settings.reference_grid * settings.reference_grid
+                                                : 1},
+      ground_(f_.ground->picture(at_)) {}
 
 void Frame::begin_picture() {
     if (v_.reloads != f_.reloads) {
         v_.clipmap.refill();
         v_.reloads = f_.reloads;
     }
-    shot_ = f_.make_shot(v_.clipmap, lens_, s_, jitter_of(picture_));
-    if (!living()) {
-        shot_.constants.living_band = glm::vec2(0);
-        shot_.constants.page_blades = 0;
+    at_.shot = f_.make_shot(v_.clipmap, lens_, s_, at_.jitter(at_.number));
+    if (!at_.living()) {
+        at_.shot.constants.living_band = glm::vec2(0);
+        at_.shot.constants.page_blades = 0;
     }
-    v_.frame_buffer.upload(&shot_.constants, sizeof(shot_.constants));
+    v_.frame_buffer.upload(&at_.shot.constants, sizeof(at_.shot.constants));
     v_.frame_buffer.bind_uniform(BIND_FRAME);
     f_.wind.bind();
     if (f_.tracks) {
         f_.tracks->bind();
     }
-    batch_ = 0;
-}
-
-void Frame::update_clipmap() {
-    v_.clipmap.update(
-        {shot_.anchor.x + shot_.constants.eye.x, shot_.anchor.z + shot_.constants.eye.z});
-    v_.clipmap.bind();
-}
-
-void Frame::follow_shadow() {
-    f_.follow_shadow();
+    ground_->begin();
 }
 
 void Frame::update_far_appearance() {
-    f_.far_appearance.update(shot_.constants.light, shot_.constants.wind);
+    f_.far_appearance.update(at_.shot.constants.light, at_.shot.constants.wind);
     f_.far_appearance.bind();
 }
 
-void Frame::select_blocks() {
-    terrain::Detail detail = shot_.detail;
-    blocks_ = terrain::visible_blocks(
-        v_.clipmap, f_.surface, terrain::Frustum(shot_.constants.clip_from_world), shot_.anchor,
-        {shot_.constants.eye, f_.world.grass.canopy_m * shot_.constants.land_highest}, detail);
-    fine_ = detail.on();
-    if (fine_) {
-        v_.clipmap.bind_posts({shot_.anchor.x, shot_.anchor.z}, detail);
-    }
-}
-
 void Frame::select_far() {
-    const shared::FrameConstants& constants = shot_.constants;
+    const shared::FrameConstants& constants = at_.shot.constants;
     shares_ = s_.far == FarScheme::kPublished ? shells::published_shares()
                                               : shells::fitted_shares(f_.world.grass);
-    far_ = shells::select_far(f_.world.grass, blocks_, shot_.bands,
+    far_ = shells::select_far(f_.world.grass, ground_->blocks(), at_.shot.bands,
                               {constants.eye, constants.lod_eye, constants.patch_offset_m,
                                constants.far_alone != 0, s_.force_far_level, shares_,
                                mean_bend(constants)});
-}
-
-void Frame::sample_blocks() {
-    v_.block_samples.execute(blocks_, fine_);
 }
 
 void Frame::begin_scene() {
@@ -120,58 +90,11 @@ void Frame::take_host_scene() {
 }
 
 void Frame::draw_objects() {
-    f_.objects.draw(passes_.meshes, f_.world.scene, f_.surface, shot_.anchor, f_.time_s);
-}
-
-void Frame::draw_surface() {
-    passes_.meshes.execute(f_.mesh_ground->mesh(), f_.mesh_ground->look(glm::vec3(-shot_.anchor)));
-}
-
-void Frame::draw_terrain() {
-    passes_.terrain.execute(static_cast<int>(blocks_.size()), f_.block_mesh, fine_);
+    f_.objects.draw(passes_.meshes, f_.world.scene, f_.surface, at_.shot.anchor, f_.time_s);
 }
 
 void Frame::build_pyramid() {
     v_.depth_pyramid.build(v_.targets.scene_depth(), v_.targets.samples());
-}
-
-void Frame::select_blades() {
-    const auto tiles = blades::select_tiles(
-        f_.world.grass, f_.surface, terrain::Frustum(shot_.constants.clip_from_world),
-        {shot_.anchor, shot_.constants.lod_eye, shot_.constants.handover_band,
-         shot_.constants.handover_mode, living() ? &f_.simulation->pages() : nullptr,
-         shot_.constants.land_highest});
-    f_.cull.upload(tiles, v_.blades_considered > 0);
-    v_.blades_considered += tiles.considered;
-}
-
-bool Frame::next_batch() {
-    return on_elevation() && has_blades() && !sampled() && batch_++ < f_.cull.batches();
-}
-
-void Frame::cull_batch() {
-    f_.blade_records.bind_storage(BIND_BLADES);
-    f_.cull.execute(batch_ - 1, tests_of(s_));
-}
-
-void Frame::draw_batch() {
-    passes_.blades.execute(f_.cull, living() ? &living()->pass() : nullptr);
-}
-
-void Frame::draw_surface_blades() {
-    if (!on_mesh() || !has_blades()) {
-        return;
-    }
-    blades::SurfacePass& grass = f_.mesh_ground->grass();
-    grass.limit(shot_.constants.lod_eye, shot_.constants.handover_band.y);
-    grass.execute(terrain::Frustum(shot_.constants.clip_from_world), glm::vec3(-shot_.anchor),
-                  passes_.surface(s_.aov), tests_of(s_), v_.blades_considered > 0,
-                  living() ? f_.surface_simulation.get() : nullptr,
-                  [this](const char* name, auto&& step) {
-                      const gl::PassScope pass(v_.timers, name);
-                      step();
-                  });
-    v_.blades_considered = grass.considered();
 }
 
 void Frame::draw_shells() {

@@ -3,21 +3,20 @@
 
 #include <epoxy/gl.h>
 
-#include "base/error.h"
 #include "gl/memory.h"
 #include "render/frame.h"
+#include "render/reload.h"
 
 namespace sward::render {
 
 ViewState::ViewState(std::shared_ptr<FieldState> of)
-    : field(std::move(of)), clipmap(field->ground), frame_buffer(sizeof(shared::FrameConstants)),
+    : field(std::move(of)), clipmap(field->posts), frame_buffer(sizeof(shared::FrameConstants)),
       reloads(field->reloads) {}
 
 void ViewState::draw(const Camera& camera, const FrameSettings& settings,
                      const HostTextures& host) {
     last_settings = settings;
-    if (!field->on_mesh() && field->world.grass.blades.empty() &&
-        last_settings.tiers == Tiers::kAll) {
+    if (field->ground->far_alone() && last_settings.tiers == Tiers::kAll) {
         last_settings.tiers = Tiers::kShells; // a far-only set: the far tier from the eye's feet on
     }
     const Lens checked = lens_of(camera); // before anything is changed
@@ -52,12 +51,11 @@ FrameStats ViewState::stats() const {
     if (field->counted != this) {
         return stats;
     }
-    const MeshGround* mesh = field->mesh_ground.get();
-    if ((!mesh || mesh->has_set()) &&
-        (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
+    const Ground& ground = *field->ground;
+    if (ground.has_far() && (settings.tiers == Tiers::kAll || settings.tiers == Tiers::kShells)) {
         const auto samples = static_cast<std::uint64_t>(targets.samples());
         const DrawPasses& passes = field->passes(settings.aov);
-        if (settings.far != FarScheme::kMarch && !mesh) {
+        if (settings.far != FarScheme::kMarch && !ground.on_charts()) {
             stats.shell_fragments = settings.shells ? passes.shells.samples_passed() / samples : 0;
             stats.slice_fragments = settings.slices ? passes.slices.samples_passed() / samples : 0;
         } else if (settings.far == FarScheme::kMarch && settings.shells &&
@@ -71,10 +69,7 @@ FrameStats ViewState::stats() const {
         }
     }
     if (stats.blades_considered > 0) {
-        const bool sampled = !mesh && samples_decide(settings, targets.samples());
-        const auto counts =
-            sampled ? field->sample_cull->counts()
-                    : (mesh ? field->mesh_ground->grass().cull() : field->cull).counts();
+        const auto counts = ground.cull_counts(samples_decide(settings, targets.samples()));
         stats.blades_drawn = counts[CULL_KEPT];
         stats.culled_by_frustum = counts[CULL_FRUSTUM];
         stats.culled_by_orientation = counts[CULL_ORIENTATION];
@@ -86,14 +81,8 @@ FrameStats ViewState::stats() const {
 }
 
 void ViewState::reload(std::vector<std::string>& failures) {
-    for (auto part : {+[](ViewState& v) { v.depth_pyramid.reload(); },
-                      +[](ViewState& v) { v.block_samples.reload(); }}) {
-        try {
-            part(*this);
-        } catch (const base::Error& error) {
-            failures.emplace_back(error.what());
-        }
-    }
+    render::reload(&depth_pyramid, failures);
+    render::reload(&block_samples, failures);
     clipmap.refill();
     reloads = field->reloads;
 }

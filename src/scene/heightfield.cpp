@@ -6,12 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "scene/bare_void.h"
@@ -61,10 +61,10 @@ std::optional<Georeference> corner(const std::string& stem) {
 /// curvature).
 glm::dvec2 metres_per_degree(double latitude_deg) {
     constexpr double kA = 6378137.0, kF = 1 / 298.257223563, kE2 = kF * (2 - kF);
-    const double radians = latitude_deg * std::numbers::pi / 180;
+    const double radians = latitude_deg * base::kDegree;
     const double s = std::sin(radians), w = std::sqrt(1 - kE2 * s * s);
     const double across = kA / w, along = kA * (1 - kE2) / (w * w * w);
-    return glm::dvec2(across * std::cos(radians), along) * (std::numbers::pi / 180);
+    return glm::dvec2(across * std::cos(radians), along) * base::kDegree;
 }
 
 } // namespace

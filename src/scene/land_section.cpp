@@ -12,22 +12,11 @@ namespace {
 constexpr int kHighestClass = 65535; // 16-bit landcover
 constexpr std::size_t kMostFeatures = 64;
 
-void read_ground(TableReader& table, GroundKind& ground) {
-    std::string name;
-    if (!table.name("ground", name))
-        return;
-    const auto found = std::find(kGroundNames.begin(), kGroundNames.end(), name);
-    if (found == kGroundNames.end())
-        throw table.error("ground", fmt::format("\"{}\"", name),
-                          fmt::format("one of {}", fmt::join(kGroundNames, ", ")));
-    ground = static_cast<GroundKind>(found - kGroundNames.begin());
-}
-
 /// { density, height, dryness, ground }. Grass is soil's; another ground has none unless it says
 /// so.
 LandClass read_look(TableReader& table) {
     LandClass look;
-    read_ground(table, look.ground);
+    table.word("ground", look.ground, kGroundNames);
     const bool given = table.number("density", look.density, kShare);
     table.number("height", look.height, {0.2, kLandMostHeight, ""});
     table.number("dryness", look.dryness, {-1, 1, ""});

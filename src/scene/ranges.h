@@ -9,6 +9,15 @@ struct Range {
     const char* unit; ///< for messages; "" for a bare number
 };
 
+/// Values drawn evenly between two ends, both included.
+struct Span {
+    double low = 0;
+    double high = 0;
+
+    [[nodiscard]] double mean() const { return 0.5 * (low + high); }
+    bool operator==(const Span&) const = default;
+};
+
 inline constexpr Range kPlace{
     -1e6, 1e6, "m"}; // from the terrain's centre; float32 on the GPU keeps 6 cm there
 inline constexpr Range kLatitude{-90, 90, "degrees"};

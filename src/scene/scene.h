@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -87,8 +88,12 @@ struct AirSpec {
                                ///< thing's contrast to the sky
 };
 
+enum class ObjectKind { kSphere, kMesh, kVehicle, kRotor };
+inline constexpr std::array<const char*, 4> kObjectKindNames = {"sphere", "mesh", "vehicle",
+                                                                "rotor"};
+
 struct ObjectSpec {
-    std::string kind; ///< sphere, mesh, vehicle, rotor
+    ObjectKind kind = ObjectKind::kSphere;
     double radius_m = 0.5;
     std::filesystem::path mesh;
     glm::dvec3 position{0, 0, 0};

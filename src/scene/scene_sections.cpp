@@ -13,8 +13,6 @@ constexpr int kMostBands = 256;
 
 constexpr int kMostSpheres = 10000; // of one mesh
 
-const std::vector<std::string> kObjectKinds = {"sphere", "mesh", "vehicle", "rotor"};
-
 std::optional<glm::dvec2> read_pair(TableReader& table, const char* key, const Range& range) {
     std::vector<double> given;
     if (!table.numbers(key, given, {range, range}))
@@ -46,9 +44,7 @@ void require_place(const TableReader& table) {
 } // namespace
 
 void read_colour(TableReader& table, const char* key, glm::dvec3& colour) {
-    std::vector<double> given;
-    if (table.numbers(key, given, {kShare, kShare, kShare}))
-        colour = {given[0], given[1], given[2]};
+    table.three(key, colour, kShare);
 }
 
 void read_terrain(TableReader table, TerrainSpec& terrain) {
@@ -159,7 +155,7 @@ void check_path(const TableReader& table, const std::string& path,
 
 ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& paths) {
     ObjectSpec object;
-    table.name("kind", object.kind);
+    table.word("kind", object.kind, kObjectKindNames);
     table.number("radius_m", object.radius_m, {0.01, 1000, "m"});
     table.path("mesh", object.mesh);
     read_place(table, object.position, object.geo);
@@ -171,10 +167,7 @@ ObjectSpec read_object(TableReader table, const std::map<std::string, Path>& pat
     table.integer("most_spheres", object.most_spheres, 1, kMostSpheres);
     table.finish();
     table.require("kind");
-    if (std::find(kObjectKinds.begin(), kObjectKinds.end(), object.kind) == kObjectKinds.end())
-        throw table.error("kind", fmt::format("\"{}\"", object.kind),
-                          fmt::format("one of {}", fmt::join(kObjectKinds, ", ")));
-    if (object.kind == "mesh")
+    if (object.kind == ObjectKind::kMesh)
         table.require("mesh");
     const bool placed = table.has("position") || table.has("geo");
     if (placed == table.has("path"))

@@ -10,7 +10,6 @@
 namespace sward::scene {
 namespace {
 
-constexpr int kMostDots = 32;
 constexpr std::size_t kLongestText = 4096; // PATH_MAX
 constexpr std::size_t kLongestName = 64;
 constexpr const char* kNameRule = "1 to 64 letters, digits, '_' or '-'";
@@ -19,8 +18,14 @@ std::string in_quotes(std::string_view text) {
     return fmt::format("\"{}\"", base::printable(text));
 }
 
-/// A node as the message shows it: scalars by value, the rest by kind.
-std::string describe(const toml::node& node) {
+std::string number_in(const char* kind, const Range& range) {
+    return fmt::format("{} from {} to {}{}{}", kind, range.low, range.high, *range.unit ? " " : "",
+                       range.unit);
+}
+
+} // namespace
+
+std::string described(const toml::node& node) {
     if (const auto* value = node.as_integer())
         return fmt::format("{}", value->get());
     if (const auto* value = node.as_floating_point())
@@ -34,56 +39,8 @@ std::string describe(const toml::node& node) {
     return node.is_table() ? "a table" : "a date or time";
 }
 
-std::string describe(const Range& range) {
-    return fmt::format("a number from {} to {}{}{}", range.low, range.high, *range.unit ? " " : "",
-                       range.unit);
-}
-
-bool is_digit(char c) {
-    return c >= '0' && c <= '9';
-}
-
-/// Whether the dot at `at` may be a number's: digits on both sides, and no second dot before them.
-bool in_number(std::string_view line, std::size_t at) {
-    std::size_t first = at;
-    while (first > 0 && is_digit(line[first - 1]))
-        --first;
-    return first < at && at + 1 < line.size() && is_digit(line[at + 1]) &&
-           (first == 0 || line[first - 1] != '.');
-}
-
-/// The parser nests one table for each dot of a key, with no limit, and its destructor would
-/// overflow the stack. A key stands on one line, so counting dots line by line bounds the depth
-/// whatever quotes and brackets stand around them.
-void refuse_deep_keys(std::string_view text, const std::filesystem::path& file) {
-    int number = 0;
-    while (!text.empty()) {
-        ++number;
-        const std::string_view line = text.substr(0, text.find('\n'));
-        text.remove_prefix(std::min(text.size(), line.size() + 1));
-        const std::size_t start = line.find_first_not_of(" \t");
-        if (start == std::string_view::npos || line[start] == '#')
-            continue;
-        int dots = 0;
-        for (std::size_t i = 0; i < line.size(); ++i)
-            dots += line[i] == '.' && !in_number(line, i) ? 1 : 0;
-        if (dots > kMostDots)
-            throw base::input_error(base::ExitCode::kOverLimit, file, number, "dots in one line",
-                                    std::to_string(dots), "at most " + std::to_string(kMostDots));
-    }
-}
-
-} // namespace
-
-toml::table parse_toml(const std::string& text, const std::filesystem::path& file) {
-    refuse_deep_keys(text, file);
-    try {
-        return toml::parse(text);
-    } catch (const toml::parse_error& error) {
-        throw base::input_error(base::ExitCode::kBadInput, file,
-                                static_cast<int>(error.source().begin.line), "not valid TOML",
-                                error.description(), "TOML 1.0");
-    }
+std::string whole_number(const Range& range) {
+    return number_in("a whole number", range);
 }
 
 std::string spelt(const toml::table& table, std::string_view key) {
@@ -139,7 +96,7 @@ base::Error TableReader::over_limit(const char* key, std::size_t found, std::siz
 base::Error TableReader::wrong(std::string_view name, const toml::node& node,
                                std::string_view expected) const {
     return base::input_error(base::ExitCode::kBadInput, file_,
-                             static_cast<int>(node.source().begin.line), name, describe(node),
+                             static_cast<int>(node.source().begin.line), name, described(node),
                              expected);
 }
 
@@ -149,7 +106,7 @@ double TableReader::checked(std::string_view name, const toml::node& node,
     const auto* real = node.as_floating_point();
     const double value = whole ? static_cast<double>(whole->get()) : real ? real->get() : NAN;
     if (!(value >= range.low && value <= range.high)) // NaN fails too
-        throw wrong(name, node, describe(range));
+        throw wrong(name, node, number_in("a number", range));
     return value;
 }
 
@@ -183,6 +140,45 @@ bool TableReader::integer(const char* key, int& value, int low, int high) {
         throw wrong(full_name(key), *node, fmt::format("a whole number from {} to {}", low, high));
     value = static_cast<int>(whole->get());
     return true;
+}
+
+bool TableReader::integer(const char* key, std::int64_t& value, const Range& range) {
+    const toml::node* node = find(key);
+    if (!node)
+        return false;
+    const auto* whole = node->as_integer();
+    if (!whole || !(static_cast<double>(whole->get()) >= range.low &&
+                    static_cast<double>(whole->get()) <= range.high))
+        throw wrong(full_name(key), *node, whole_number(range));
+    value = whole->get();
+    return true;
+}
+
+bool TableReader::span(const char* key, Span& value, const Range& range) {
+    const toml::node* node = find(key);
+    if (!node)
+        return false;
+    const toml::array* array = node->as_array();
+    if (!array || array->size() != 2)
+        throw wrong(full_name(key), *node, number_in("[low, high], two rising numbers", range));
+    const Span given{checked(full_name(key) + "[0]", (*array)[0], range),
+                     checked(full_name(key) + "[1]", (*array)[1], range)};
+    if (given.low > given.high)
+        throw error(key, fmt::format("[{}, {}]", given.low, given.high),
+                    "two rising numbers, the lesser first");
+    value = given;
+    return true;
+}
+
+std::optional<std::size_t> TableReader::number_of_word(const char* key,
+                                                       std::span<const char* const> words) {
+    std::string found;
+    if (!name(key, found))
+        return std::nullopt;
+    const auto at = std::find(words.begin(), words.end(), found);
+    if (at == words.end())
+        throw error(key, in_quotes(found), fmt::format("one of {}", fmt::join(words, ", ")));
+    return static_cast<std::size_t>(at - words.begin());
 }
 
 bool TableReader::boolean(const char* key, bool& value) {
@@ -266,6 +262,11 @@ bool TableReader::place(const char* key, glm::dvec3& value) {
     return true;
 }
 
+bool TableReader::holds(const char* table, const char* key) const {
+    const toml::node* node = table_->get(table);
+    return node && node->is_table() && node->as_table()->contains(key);
+}
+
 std::optional<TableReader> TableReader::table(const char* key) {
     const toml::node* node = find(key);
     if (!node)
@@ -327,17 +328,25 @@ TableReader::integer_keys(int high, const Range& range) {
     return all;
 }
 
-void TableReader::finish() const {
+std::string TableReader::meant_by(std::string_view key,
+                                  std::span<const std::string> elsewhere) const {
+    const std::string last = fmt::format(".{}", key);
+    const auto there = std::find_if(elsewhere.begin(), elsewhere.end(),
+                                    [&](const std::string& full) { return full.ends_with(last); });
+    if (!key.empty() && there != elsewhere.end())
+        return *there;
+    const std::string nearest = base::nearest_name(key, known_);
+    return nearest.empty() ? fmt::format("one of {}", fmt::join(known_, ", ")) : full_name(nearest);
+}
+
+void TableReader::finish(std::span<const std::string> elsewhere) const {
     for (const auto& [key, node] : *table_) {
         const std::string_view entry = key.str();
         if (std::find(known_.begin(), known_.end(), entry) != known_.end())
             continue;
-        const std::string nearest = base::nearest_name(entry, known_);
-        throw base::input_error(base::ExitCode::kBadInput, file_,
-                                static_cast<int>(key.source().begin.line), "unknown key",
-                                full_name(entry.empty() ? "\"\"" : entry),
-                                nearest.empty() ? fmt::format("one of {}", fmt::join(known_, ", "))
-                                                : full_name(nearest));
+        throw base::input_error(
+            base::ExitCode::kBadInput, file_, static_cast<int>(key.source().begin.line),
+            "unknown key", full_name(entry.empty() ? "\"\"" : entry), meant_by(entry, elsewhere));
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <epoxy/gl.h>
 
+#include "base/angles.h"
 #include "shared/bindings.h"
 
 namespace sward::terrain {
@@ -30,7 +31,7 @@ void LandShadow::follow(const glm::dvec3& to_sun, bool at_once) {
     const bool whole = at_once || first;
     const bool stands = to_sun == asked_sun_;
     asked_sun_ = to_sun;
-    const bool far_off = glm::dot(to_sun, shown_sun_) < std::cos(glm::radians(kStep_deg));
+    const bool far_off = glm::dot(to_sun, shown_sun_) < std::cos(kStep_deg * base::kDegree);
     if (to_sun != shown_sun_ && (whole || (!sweeping_ && (far_off || stands)))) {
         sweep_.begin(to_sun);
         next_sun_ = to_sun;

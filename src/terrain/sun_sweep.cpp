@@ -6,10 +6,12 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "base/angles.h"
+
 namespace sward::terrain {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 constexpr double kHighest_deg = 89; // of a sun that still throws a shadow to a side
 constexpr float kSoft_m = 0.5f;     // a shadow's rim is never narrower: posts know no more
 constexpr float kNone_m = -1e6f;    // of a line that has met no land

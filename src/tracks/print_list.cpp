@@ -5,11 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/angles.h"
+
 namespace sward::tracks {
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
 constexpr double kFarthest_m = 1e7; // of what is looked at
 
 bool finite(glm::dvec3 v) {
@@ -25,12 +26,11 @@ struct Stand {
 Stand stand_of(const scene::TrackFoot& foot, const scene::Path& path, double time_s,
                const Ground& ground) {
     const scene::Pose pose = scene::sample_path(path, time_s);
-    const double yaw = pose.yaw_deg * kDegree;
-    const glm::dvec2 right(std::cos(yaw), std::sin(yaw)), back(-std::sin(yaw), std::cos(yaw));
+    const base::Heading heading(pose.yaw_deg);
     Stand out;
-    out.place =
-        glm::dvec2(pose.position.x, pose.position.z) + right * foot.place.x + back * foot.place.y;
-    out.turn = glm::vec2(right);
+    out.place = glm::dvec2(pose.position.x, pose.position.z) + heading.right() * foot.place.x +
+                heading.back() * foot.place.y;
+    out.turn = glm::vec2(heading.right());
     out.height_m = pose.agl ? pose.position.y : pose.position.y - ground(out.place.x, out.place.y);
     return out;
 }

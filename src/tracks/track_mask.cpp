@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "tracks/tracks.h"
 
@@ -14,7 +15,6 @@ namespace sward::tracks {
 namespace {
 
 constexpr int kSide = shared::kTrackCells;
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 struct Area {
     glm::dvec2 low{0}, size{0}; ///< m
@@ -86,8 +86,9 @@ scene::Image painted(const scene::TrackSpec& spec, const Masks& masks) {
             const double yaw = masks.way.width > 0
                                    ? 2 * 180 * static_cast<double>(nearest(masks.way, at))
                                    : spec.mask_way_deg;
-            out.texels[texel_at] = lying * static_cast<float>(std::sin(yaw * kDegree));
-            out.texels[texel_at + 1] = -lying * static_cast<float>(std::cos(yaw * kDegree));
+            const glm::vec2 way = lying * glm::vec2(base::Heading(yaw).ahead());
+            out.texels[texel_at] = way.x;
+            out.texels[texel_at + 1] = way.y;
         }
     }
     return out;

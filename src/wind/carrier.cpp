@@ -3,17 +3,19 @@
 
 #include <cmath>
 
+#include "base/angles.h"
+
 namespace sward::wind {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180;
+using base::kDegree;
 constexpr double kHalfDifference_s = 0.005; // velocities are central differences over twice this
 
 /// Place on the path with the offset that the file gives, in the frame of the path's yaw.
 glm::dvec2 offset_place(const scene::Pose& pose, glm::dvec2 offset) {
-    const double yaw = pose.yaw_deg * kDegree;
-    const glm::dvec2 right(std::cos(yaw), std::sin(yaw)), back(-std::sin(yaw), std::cos(yaw));
-    return glm::dvec2(pose.position.x, pose.position.z) + right * offset.x + back * offset.y;
+    const base::Heading heading(pose.yaw_deg);
+    return glm::dvec2(pose.position.x, pose.position.z) + heading.right() * offset.x +
+           heading.back() * offset.y;
 }
 
 } // namespace

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "base/angles.h"
 
 namespace sward::wind {
 namespace {
@@ -10,8 +13,7 @@ namespace {
 using shared::WindForce;
 using Kind = scene::WindSource::Kind;
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kDegree = kPi / 180;
+using std::numbers::pi;
 constexpr double kGravity = 9.81;           // m/s2
 constexpr double kAirDensity = 1.225;       // kg/m3
 constexpr double kContraction = 0.70710678; // of a rotor's wake
@@ -29,7 +31,7 @@ constexpr double kWakeRate = 1;
 constexpr double kVortexRate = 0.5, kInflowRate = 20;
 
 glm::dvec2 heading(double yaw_deg) {
-    return {std::sin(yaw_deg * kDegree), -std::cos(yaw_deg * kDegree)};
+    return base::Heading(yaw_deg).ahead();
 }
 
 void set_place(WindForce& force, glm::dvec2 place, glm::dvec2 along) {
@@ -68,7 +70,7 @@ void set_ring(WindForce& force, int kind, double speed, double radius, double re
 } // namespace
 
 Outwash rotor_outwash(const scene::WindSource& rotor, double height_m) {
-    const double area = kPi * rotor.radius_m * rotor.radius_m;
+    const double area = pi * rotor.radius_m * rotor.radius_m;
     const double wake = rotor.strength_mps
                             ? *rotor.strength_mps
                             : 2 * std::sqrt(*rotor.mass_kg * kGravity / (2 * kAirDensity * area));
@@ -133,12 +135,12 @@ WindForce ForceList::force_of(const scene::WindSource& source, double time_s,
         break;
     }
     case Kind::kWave: {
-        const double k = 2 * kPi / source.wavelength_m;
+        const double k = 2 * pi / source.wavelength_m;
         set_extent(force, radius, radius);
         set_push(force, shared::kForceWave, strength, 0);
         force.wave_number = static_cast<float>(k);
         force.wave_phase = static_cast<float>(
-            -std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * kPi));
+            -std::fmod(k * source.travel_mps.value_or(strength) * time_s, 2 * pi));
         break;
     }
     }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 
 namespace sward::wind {
@@ -13,8 +14,6 @@ namespace {
 
 using shared::WindSolid;
 using Kind = scene::WindObstacle::Kind;
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 } // namespace
 
@@ -60,10 +59,9 @@ std::vector<WindSolid> SolidList::at(double time_s, glm::dvec2 origin) const {
     for (std::size_t i = 0; i < obstacles_.size(); ++i) {
         const scene::WindObstacle& obstacle = obstacles_[i];
         const Carried carried = carried_at(obstacle.where, paths_, time_s);
-        const double yaw = carried.yaw_deg * kDegree;
         WindSolid solid{};
         solid.place = glm::vec2(carried.place - origin);
-        solid.heading = {std::cos(yaw), std::sin(yaw)};
+        solid.heading = glm::vec2(base::Heading(carried.yaw_deg).right());
         solid.velocity = glm::vec2(carried.velocity);
         solid.turn_rad_s = static_cast<float>(carried.turn_rad_s);
         if (obstacle.kind == Kind::kMesh) {

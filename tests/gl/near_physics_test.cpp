@@ -32,7 +32,7 @@ scene::Scene ball_scene() {
                           double seconds) {
         scene.paths[name].keys = {{0, from, 0, 0}, {seconds, to, 0, 0}};
         scene::ObjectSpec object;
-        object.kind = "sphere";
+        object.kind = scene::ObjectKind::kSphere;
         object.radius_m = radius;
         object.path = name;
         scene.objects.push_back(object);
@@ -114,7 +114,7 @@ TEST_F(NearPhysics, PackedMeshesTurnWithTheirObjects) {
     packed_["barn.glb"].spheres = {{1, 0.3f, -2, 0.5f}, {0, 1, 0, 0.25f}};
     scene::Scene scene;
     scene::ObjectSpec barn;
-    barn.kind = "mesh";
+    barn.kind = scene::ObjectKind::kMesh;
     barn.mesh = "barn.glb";
     barn.position = {10, 0, 20};
     barn.yaw_deg = 90; // its front, -z, looks east
@@ -442,7 +442,7 @@ TEST_F(NearPhysics, CollidersThatCannotBeAreRefused) {
     EXPECT_FALSE(balls.any()); // none of them entered
     scene::Scene scene;
     scene::ObjectSpec object;
-    object.kind = "sphere";
+    object.kind = scene::ObjectKind::kSphere;
     object.radius_m = -0.5;
     scene.objects = {object};
     EXPECT_THROW(colliders(scene), base::Error);

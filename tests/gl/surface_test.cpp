@@ -31,7 +31,7 @@ render::World mesh_world(scene::Mesh mesh) {
     render::World world;
     world.scene.terrain.surface = "sheet.glb";
     world.scene.surface_grass.density_per_m2 = 800;
-    world.scene.surface_grass.blade_width_m = {0.01, 0.02};
+    world.scene.surface_grass.species.width_m = {0.01, 0.02};
     world.surface = std::move(mesh);
     return world;
 }
@@ -110,7 +110,7 @@ TEST_F(SurfaceScenes, EveryShapeDraws) {
         render::World world = mesh_world(sheet(1));
         world.scene.surface_grass.shape = shape;
         world.scene.surface_grass.density_per_m2 = 60;
-        world.scene.surface_grass.blade_width_m = {0.03, 0.05};
+        world.scene.surface_grass.species.width_m = {0.03, 0.05};
         Renderer renderer(std::move(world));
         covered[shape] = tiers_of(renderer, {0, 0.4, 1.6}, -8)[1];
     }
@@ -129,11 +129,11 @@ TEST_F(SurfaceScenes, ObjectsFollowTheirPaths) {
     world.scene.surface_grass.density_per_m2 = 1;
     world.scene.paths["p"].keys = {{0, {0, 1, 0}, 0, 0}, {2, {6, 1, 0}, 0, 0}};
     scene::ObjectSpec ball;
-    ball.kind = "sphere";
+    ball.kind = scene::ObjectKind::kSphere;
     ball.radius_m = 0.5;
     ball.path = "p";
     scene::ObjectSpec still;
-    still.kind = "mesh";
+    still.kind = scene::ObjectKind::kMesh;
     still.mesh = "box.glb";
     still.position = {0, 30, 0};
     world.meshes["box.glb"] = sheet(0.5);
@@ -188,12 +188,12 @@ TEST_F(SurfaceScenes, LivingBladesOfAMeshEqualTheTwin) {
     spec.lean = 0.4;
     const auto grass = blades::place_surface_grass(bent_sheet(), spec, "bent.glb");
     const auto records = gl::Buffer::of(std::span<const shared::SurfaceBlade>(grass.blades));
-    const double canopy = spec.blade_height_m.y;
+    const double canopy = spec.species.length_m.high;
     blades::SurfaceSimulation simulation({{&records, grass.clusters}}, canopy,
                                          {{50, 64 << 20}, 1.0 / 60});
     scene::Scene scene;
     scene::ObjectSpec ball;
-    ball.kind = "sphere";
+    ball.kind = scene::ObjectKind::kSphere;
     ball.radius_m = 0.25;
     ball.path = "over";
     scene.objects = {ball};

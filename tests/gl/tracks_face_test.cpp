@@ -24,7 +24,7 @@ render::World yard() {
                      {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
     box.normals.assign(8, {0, 1, 0});
     scene::ObjectSpec object;
-    object.kind = "mesh";
+    object.kind = scene::ObjectKind::kMesh;
     object.mesh = "box.glb";
     object.position = {300, 0, 300};
     world.scene.objects = {object};

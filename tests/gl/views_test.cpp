@@ -176,7 +176,7 @@ TEST_F(Views, AWindThatChangesEndsInItsPicture) {
 TEST_F(Views, DensityAndObjectsAreTheHosts) {
     render::World world = face_world();
     scene::ObjectSpec ball;
-    ball.kind = "sphere";
+    ball.kind = scene::ObjectKind::kSphere;
     ball.radius_m = 0.8;
     ball.position = {500, 0.8, 500};
     world.scene.objects = {ball};

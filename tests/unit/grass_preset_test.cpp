@@ -53,7 +53,7 @@ stalk = 0.5
     ASSERT_EQ(preset.species.size(), 2u);
     const Species &plain = preset.species[0], &ear = preset.species[1];
     EXPECT_EQ(plain.name, "species0");
-    EXPECT_EQ(plain.element, "blade");
+    EXPECT_EQ(plain.element, Element::kBlade);
     EXPECT_EQ(plain.head_from, 1);
     EXPECT_EQ(plain.width_m.low, Species{}.width_m.low);
     EXPECT_EQ(ear.name, "ear");

@@ -195,7 +195,7 @@ TEST(Raster, MipsKeepWhatAnAlphaTestSees) {
 }
 
 TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
-    for (const char* coding : {"linear", "top"}) {
+    for (const HeightMap coding : {HeightMap::kLinear, HeightMap::kTop}) {
         Preset preset = small_meadow();
         preset.height_map = coding;
         preset.variants = 1;
@@ -214,8 +214,8 @@ TEST(Raster, AHeightMapShowsFromAboveWhatTheLayersShow) {
                 height += shared::decode_height(
                     static_cast<float>(level.layers.mips[0][t]) / 255.0f, set.height_coding);
             }
-        EXPECT_NEAR(shown / (256 * 256), nadir.coverage, 0.03) << coding;
-        EXPECT_NEAR(height / shown, nadir.height, 0.03) << coding;
+        EXPECT_NEAR(shown / (256 * 256), nadir.coverage, 0.03) << static_cast<int>(coding);
+        EXPECT_NEAR(height / shown, nadir.height, 0.03) << static_cast<int>(coding);
     }
     for (const int coding : {shared::kHeightLinear, shared::kHeightTop})
         for (const float h : {0.0f, 0.3f, 0.9f, 1.0f})

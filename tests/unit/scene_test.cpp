@@ -259,8 +259,8 @@ TEST_F(SceneFile, SurfacesCarryTheirOwnGrass) {
     EXPECT_EQ(scene.surface_grass.density_per_m2, 250);
     EXPECT_EQ(scene.surface_grass.share_in_tufts(), 1);
     EXPECT_EQ(scene.surface_grass.shape, BladeShape::kTriangleTip);
-    EXPECT_EQ(scene.surface_grass.blade_height_m, glm::dvec2(0.1, 0.2));
-    EXPECT_EQ(scene.surface_grass.root_colour, glm::dvec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(scene.surface_grass.species.length_m, (Span{0.1, 0.2}));
+    EXPECT_EQ(scene.surface_grass.species.root, (Colour{0.1, 0.2, 0.3}));
     const auto wrong = [&](const std::string& line) {
         return error(kSurface + "[surface_grass]\n" + line + "\n");
     };
@@ -271,9 +271,9 @@ TEST_F(SceneFile, SurfacesCarryTheirOwnGrass) {
     EXPECT_EQ(wrong("shape = \"leaf\""),
               "scene.toml:4: surface_grass.shape: found \"leaf\", expected one of quad, triangle, "
               "quadratic, triangle-tip, dandelion");
-    EXPECT_EQ(
-        wrong("blade_height_m = [0.3, 0.1]"),
-        "scene.toml:4: surface_grass.blade_height_m: found [0.3, 0.1], expected the lesser first");
+    EXPECT_EQ(wrong("blade_height_m = [0.3, 0.1]"),
+              "scene.toml:4: surface_grass.blade_height_m: found [0.3, 0.1], expected two "
+              "rising numbers, the lesser first");
     EXPECT_EQ(wrong("blade_width_m = [0, 0.1]"), "scene.toml:4: surface_grass.blade_width_m[0]: "
                                                  "found 0, expected a number from 0.0001 to 1 m");
     EXPECT_EQ(wrong("tip_color = [1, 1, 1]"),

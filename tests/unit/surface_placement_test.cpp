@@ -191,8 +191,8 @@ TEST(SurfacePlacement, TuftCentresKeepApart) {
 TEST(SurfacePlacement, BladesOfTuftsStayWithTheirCentre) {
     const Mesh mesh = wavy_sheet(20);
     SurfaceGrassSpec spec = spec_of(Placement::kTufts, 400);
-    spec.tuft_blades = 20;
-    spec.tuft_radius_m = 0.06;
+    spec.species.tuft_blades = {20, 20};
+    spec.species.tuft_radius_m = {0.06, 0.06};
     const SurfaceBlades grass = place_surface_grass(mesh, spec, "m.glb");
     const SurfaceArea area(mesh, 180);
     const std::size_t tufts = (grass.blades.size() + 10) / 20;
@@ -214,7 +214,7 @@ TEST(SurfacePlacement, BladesOfTuftsStayWithTheirCentre) {
 TEST(SurfacePlacement, TuftsGatherOrSplay) {
     const Mesh mesh = wavy_sheet(20);
     SurfaceGrassSpec spec = spec_of(Placement::kTufts, 400);
-    spec.tuft_blades = 20;
+    spec.species.tuft_blades = {20, 20};
     spec.droop = 0.5;
     const SurfaceArea area(mesh, 180);
     const auto spread =

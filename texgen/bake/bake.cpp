@@ -41,14 +41,8 @@ grass::FarMedium bake_march(const Preset& preset, const BakeOptions& options, co
     return march;
 }
 
-} // namespace
-
-grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
-    Patch patch;
-    {
-        const StepTimer timer("patch");
-        patch = generate_patch(preset, options.threads);
-    }
+/// What the preset and its blades say of a set, before anything of it is drawn.
+grass::GrassSet described(const Preset& preset, const Patch& patch) {
     grass::GrassSet set;
     set.name = preset.name;
     set.seed = static_cast<std::uint64_t>(preset.seed);
@@ -64,12 +58,25 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     for (const Species& species : preset.species)
         shares += species.share;
     for (const Species& species : preset.species)
-        set.species.push_back({species.name, species.element,
+        set.species.push_back({species.name,
+                               scene::kElementNames.at(static_cast<std::size_t>(species.element)),
                                static_cast<float>(species.share / shares), appearance(species)});
     // The numbers a reader gets are floats; the textures are drawn for those, not for their
     // doubles.
     set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
     set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
+    return set;
+}
+
+} // namespace
+
+grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
+    Patch patch;
+    {
+        const StepTimer timer("patch");
+        patch = generate_patch(preset, options.threads);
+    }
+    grass::GrassSet set = described(preset, patch);
     const std::vector<double> seen = heights_seen(patch, set.canopy_m, options.threads);
     report_placing(seen, set.canopy_m, static_cast<int>(preset.layers));
     std::size_t images = 0;

@@ -33,7 +33,8 @@ std::string shown(const BakeCommandOptions& o) {
     for (const Override& change : o.overrides)
         words.push_back(fmt::format("{} {}", change.option, change.value));
     if (o.height_map)
-        words.push_back("--height-map " + *o.height_map);
+        words.push_back(fmt::format("--height-map {}",
+                                    kHeightMapNames.at(static_cast<std::size_t>(*o.height_map))));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -145,7 +145,7 @@ void declare_bake(CLI::App& app, BakeCommandOptions& o) {
             [&o](const std::string& text) {
                 if (text != "linear" && text != "top")
                     throw usage("--height-map", text, "linear or top");
-                o.height_map = text;
+                o.height_map = text == "top" ? HeightMap::kTop : HeightMap::kLinear;
             });
     declare(
         app, "--compression", "none|zstd|zstd:N|bc",

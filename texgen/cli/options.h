@@ -40,7 +40,7 @@ struct BakeCommandOptions : CommonOptions {
     std::string preset;
     std::filesystem::path output; ///< without a trailing slash
     std::vector<Override> overrides;
-    std::optional<std::string> height_map; ///< instead of the preset's
+    std::optional<HeightMap> height_map; ///< instead of the preset's
     Compression compression;
     ExportFormat export_format = ExportFormat::kNone;
     std::optional<std::filesystem::path> preview_file; ///< instead of preview.png inside the set

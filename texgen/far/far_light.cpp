@@ -9,13 +9,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/angles.h"
 #include "shared/bend.h"
 #include "shared/shading.h"
 
 namespace sward::texgen {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+using base::kDegree;
 // Intensities of the shipped meadow in a calm, and in wind of some 7, 13 and 35 m/s. 45 degrees of
 // lean azimuth and 22.5 of the sun's: finer changed a meadow's radiance by less than the rays' own
 // error. Low suns are close, for there sunlight fades.

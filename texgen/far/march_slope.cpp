@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "base/angles.h"
 #include "shared/blade.h"
 #include "texgen/support/parallel.h"
 
@@ -57,7 +57,7 @@ private:
 /// Mean of what rays meet that go along x, up (`way` 1) or down (-1) the slope.
 glm::dvec2 mean_of(const std::vector<SlopedBlades>& variants, const Patch& patch,
                    double elevation_deg, double way, int rays) {
-    const double elevation = elevation_deg * std::numbers::pi / 180;
+    const double elevation = elevation_deg * base::kDegree;
     glm::dvec2 sum(0);
     int hits = 0;
     for (int i = 0; i < rays; ++i) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/angles.h"
 #include "base/hash.h"
 #include "texgen/patch/canopy.h"
 
@@ -16,7 +17,7 @@ constexpr std::size_t kIds = 65536; // a rank and a seed
 constexpr float kOpaque =
     0.999f; // a cloud's voxel lets some light through, so that powers of it exist
 constexpr double kFacingSpread =
-    40 * std::numbers::pi / 180; // as patch.cpp turns blades about the way they bend
+    40 * base::kDegree; // as patch.cpp turns blades about the way they bend
 
 std::uint8_t byte_of(float unit) {
     return static_cast<std::uint8_t>(std::clamp(static_cast<int>(unit * 256), 0, 255));

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/angles.h"
 #include "base/hash.h"
 #include "base/log.h"
 #include "texgen/patch/patch_size.h"
@@ -21,8 +22,9 @@ using shared::vec3;
 enum Stream : std::uint64_t { kShape = 100000, kRankTie, kSeedShift };
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kFacingSpread = 40 * kPi / 180; // a blade bends over its flat side, give or take
-constexpr double kTuftSpread = 50 * kPi / 180;   // blades of a tuft lean away from its middle
+using base::kDegree;
+constexpr double kFacingSpread = 40 * kDegree; // a blade bends over its flat side, give or take
+constexpr double kTuftSpread = 50 * kDegree;   // blades of a tuft lean away from its middle
 
 /// The random numbers of one blade, in a fixed order.
 class Draw {
@@ -54,9 +56,9 @@ BladeRecord grow(const Preset& preset, const Sprout& sprout) {
         lean_share = (lean_share + out) / 2;
     }
     const double lean =
-        std::lerp(species.lean_deg.low, species.lean_deg.high, lean_share) * kPi / 180;
+        std::lerp(species.lean_deg.low, species.lean_deg.high, lean_share) * kDegree;
     const double weight = droop * kDroopDeg * length / species.length_m.high;
-    const double bend = (draw.in(species.curvature_deg) + weight) * kPi / 180;
+    const double bend = (draw.in(species.curvature_deg) + weight) * kDegree;
     const RestCurve curve = rest_curve(length, lean, bend, azimuth);
     const double width = draw.about(species.width_m);
     const double facing = azimuth + kPi / 2 + draw.spread() * kFacingSpread;

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "base/angles.h"
+
 namespace sward::texgen {
 namespace {
 
@@ -192,7 +194,7 @@ std::optional<RayHit> BladeField::cast(glm::dvec3 origin, glm::dvec3 direction,
 }
 
 SampleRay sample_ray(int number, double elevation_deg, double side, double canopy) {
-    const double elevation = elevation_deg * std::numbers::pi / 180;
+    const double elevation = elevation_deg * base::kDegree;
     const int n = number + 1; // 0 is the corner of all bases
     const double azimuth = halton(n, 5) * 2 * std::numbers::pi;
     return {glm::dvec3(halton(n, 2) * side, canopy, halton(n, 3) * side),

@@ -2,7 +2,7 @@
 #include "texgen/preset/preset.h"
 
 #include <algorithm>
-#include <optional>
+#include <variant>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
@@ -10,238 +10,136 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/log.h"
-#include "scene/toml_reader.h"
-#include "texgen/preset/preset_fields.h"
 
 namespace sward::texgen {
 namespace {
 
 using base::ExitCode;
+using scene::kShare;
+using scene::SpeciesKey;
+using scene::TableReader;
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxPresetBytes = 1 << 20;
+constexpr double kMaxSeed = 9007199254740991.0; // 2^53 - 1: JSON readers keep it exact
 
-int line_of(const toml::node& node) {
-    return static_cast<int>(node.source().begin.line);
-}
+/// A key of the preset's own: those of its species are scene/species.h's. The command line is held
+/// to the same ranges.
+struct PresetKey {
+    using Target = std::variant<std::int64_t Preset::*, double Preset::*, Colour Preset::*>;
+    const char* section; ///< empty: the top level
+    const char* key;
+    Target target;
+    scene::Range range;
 
-int edit_distance(std::string_view a, std::string_view b) {
-    std::vector<int> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = static_cast<int>(j);
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        int diagonal = row[0];
-        row[0] = static_cast<int>(i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const int change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-        }
+    [[nodiscard]] std::string full() const {
+        return *section ? fmt::format("{}.{}", section, key) : key;
     }
-    return row.back();
-}
-
-std::string shown(const toml::node& node) {
-    std::ostringstream text;
-    node.visit([&](const auto& value) { text << value; });
-    return base::printable(text.str());
-}
-
-/// Where keys stand: the preset's top level, or one of its [[species]].
-enum class Scope { kPreset, kSpecies };
-
-/// A key of a species without a section names one species, and so belongs into its entry alone.
-bool stands_in(const Field& field, Scope scope) {
-    return scope == Scope::kSpecies ? field.of_species()
-                                    : !field.of_species() || !field.section.empty();
-}
-
-std::string nearest_key(std::string_view section, std::string_view key, Scope scope) {
-    std::string best;
-    int least = 1 << 20;
-    const std::string full =
-        section.empty() ? std::string(key) : fmt::format("{}.{}", section, key);
-    for (const Field& field : preset_fields())
-        for (const std::string_view name :
-             {std::string_view(field.key), std::string_view(field.section)}) {
-            if (name.empty() || !stands_in(field, scope))
-                continue;
-            const bool whole = name == field.key;
-            const std::string candidate = whole ? field.full_key() : std::string(name);
-            const int distance =
-                std::min(edit_distance(full, candidate),
-                         edit_distance(key, name) + (whole && field.section != section ? 1 : 0));
-            if (distance < least) {
-                least = distance;
-                best = candidate;
-            }
-        }
-    return best;
-}
-
-bool clean_name(const std::string& text) {
-    return !text.empty() && text.size() <= 64 && std::ranges::all_of(text, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-               c == '-' || c == '_';
-    });
-}
-
-/// Where the values of a field go.
-struct Into {
-    Preset& preset;
-    Species& species;
 };
 
-/// Reads one node into its field.
+const PresetKey kKeys[] = {
+    {"", "seed", &Preset::seed, {0, kMaxSeed, ""}},
+    {"patch", "side_m", &Preset::side_m, {0.1, 64, "m"}},
+    {"patch", "density_per_m2", &Preset::density_per_m2, {1, 1000000, "blades per m2"}},
+    {"patch", "variants", &Preset::variants, {1, 16, ""}},
+    {"floor", "cover", &Preset::floor_cover, {0, 1, "of the soil"}},
+    {"floor", "moss", &Preset::floor_moss, kShare},
+    {"floor", "litter", &Preset::floor_litter, kShare},
+    {"texture", "size", &Preset::size, {32, 2048, "texels, a power of two"}},
+    {"texture", "layers", &Preset::layers, {2, 256, ""}},
+    {"texture", "slices", &Preset::slices, {2, 256, "an axis"}},
+    {"texture", "levels", &Preset::levels, {1, 4, ""}},
+    {"texture", "far_rays", &Preset::far_rays, {256, 1048576, "of a view"}},
+};
+
+/// Puts a value of any kind where its key says.
 struct Reader {
-    const fs::path& file;
-    const Field& field;
-    const toml::node& node;
+    TableReader& table;
+    Preset& preset;
+    const PresetKey& key;
 
-    [[noreturn]] void refuse() const {
-        throw base::input_error(ExitCode::kBadInput, file, line_of(node), field.full_key(),
-                                shown(node), field.expected());
+    void operator()(std::int64_t Preset::*target) const {
+        table.integer(key.key, preset.*target, key.range);
     }
-    double number(const toml::node& item) const {
-        const std::optional<double> value = item.is_number() ? item.value<double>() : std::nullopt;
-        // Written so that NaN is refused too.
-        if (!value || !(*value >= field.low && *value <= field.high))
-            refuse();
-        return *value;
+    void operator()(double Preset::*target) const {
+        table.number(key.key, preset.*target, key.range);
     }
-    template<std::size_t N> std::array<double, N> numbers() const {
-        const toml::array* items = node.as_array();
-        if (!items || items->size() != N)
-            refuse();
-        std::array<double, N> values;
-        for (std::size_t i = 0; i < N; ++i)
-            values[i] = number((*items)[i]);
-        return values;
-    }
-    std::string name() const {
-        const std::string value = node.is_string() ? node.value<std::string>().value() : "";
-        if (!clean_name(value))
-            refuse();
-        return value;
-    }
-    void put(const Into& into, std::string Preset::*target) const { into.preset.*target = name(); }
-    void put(const Into& into, std::int64_t Preset::*target) const {
-        if (!node.is_integer())
-            refuse();
-        into.preset.*target = static_cast<std::int64_t>(number(node));
-    }
-    void put(const Into& into, double Preset::*target) const { into.preset.*target = number(node); }
-    void put(const Into& into, Colour Preset::*target) const { into.preset.*target = numbers<3>(); }
-    void put(const Into& into, std::string Species::*target) const {
-        into.species.*target = name();
-    }
-    void put(const Into& into, double Species::*target) const {
-        into.species.*target = number(node);
-    }
-    void put(const Into& into, Range Species::*target) const {
-        const auto [low, high] = numbers<2>();
-        if (low > high)
-            refuse();
-        into.species.*target = {low, high};
-    }
-    void put(const Into& into, Colour Species::*target) const {
-        into.species.*target = numbers<3>();
-    }
-    void read(const Into& into) const {
-        std::visit([&](const auto& target) { put(into, target); }, field.target);
+    void operator()(Colour Preset::*target) const {
+        table.three(key.key, preset.*target, key.range);
     }
 };
 
-/// All of a preset's tables.
-class PresetReader {
-public:
-    explicit PresetReader(const fs::path& file) : file_(file) {}
+void read_keys(TableReader& table, std::string_view section, Preset& preset) {
+    for (const PresetKey& key : kKeys)
+        if (section == key.section)
+            std::visit(Reader{table, preset, key}, key.target);
+}
 
-    Preset read(const toml::table& table) {
-        preset_.name = "unnamed";
-        const toml::array* kinds = nullptr;
-        for (const auto& [key, node] : table) {
-            if (key.str() == "species") {
-                kinds = node.as_array();
-                if (!kinds || kinds->empty() || kinds->size() > shared::kMaxSpecies ||
-                    !kinds->is_array_of_tables())
-                    refuse(line_of(node), "species",
-                           kinds ? fmt::format("{} entries", kinds->size()) : shown(node),
-                           fmt::format("1 to {} [[species]] tables", shared::kMaxSpecies));
-                continue;
-            }
-            entry(Scope::kPreset, preset_.species.front(), key, node);
-        }
-        if (kinds)
-            species(*kinds);
-        return std::move(preset_);
+bool any_key(const SpeciesKey& /*key*/) {
+    return true;
+}
+
+/// What an unknown key at the top level may have meant.
+std::vector<std::string> keys_of_sections() {
+    std::vector<std::string> names{"texture.height_map"};
+    for (const PresetKey& key : kKeys)
+        if (*key.section)
+            names.push_back(key.full());
+    for (const SpeciesKey& key : scene::species_keys())
+        names.push_back(fmt::format("{}.{}", key.section, key.key));
+    return names;
+}
+
+/// [[species]]: each begins as the top level's species, its head as its element's.
+void read_kinds(const toml::node& node, const fs::path& file, Preset& preset) {
+    const toml::array* const kinds = node.as_array();
+    if (!kinds || kinds->empty() || kinds->size() > shared::kMaxSpecies ||
+        !kinds->is_array_of_tables())
+        throw base::input_error(
+            ExitCode::kBadInput, file, static_cast<int>(node.source().begin.line), "species",
+            kinds ? fmt::format("{} entries", kinds->size()) : scene::described(node),
+            fmt::format("1 to {} [[species]] tables", shared::kMaxSpecies));
+    const Species common = preset.species.front();
+    preset.species.clear();
+    for (const toml::node& entry : *kinds) {
+        TableReader table(*entry.as_table(), file, "species");
+        Species one = common;
+        one.name = fmt::format("species{}", preset.species.size());
+        table.name("name", one.name);
+        Element element = one.element;
+        if (table.word("element", element, scene::kElementNames))
+            one.become(element);
+        table.number("share", one.share, {1e-6, 1e6, "(weight among the species)"});
+        scene::read_species(table, one, any_key);
+        table.finish();
+        for (const Species& other : preset.species)
+            if (other.name == one.name)
+                throw table.error("name", one.name + " a second time", "a name of its own");
+        preset.species.push_back(one);
     }
+}
 
-private:
-    [[noreturn]] void refuse(int line, std::string_view what, const std::string& found,
-                             const std::string& expected) const {
-        throw base::input_error(ExitCode::kBadInput, file_, line, what, found, expected);
+Preset read_preset(const toml::table& whole, const fs::path& file) {
+    Preset preset;
+    TableReader table(whole, file, "");
+    table.name("name", preset.name);
+    read_keys(table, "", preset);
+    for (const char* section : {"patch", "floor", "texture"}) {
+        std::optional<TableReader> inner = table.table(section);
+        if (!inner)
+            continue;
+        read_keys(*inner, section, preset);
+        if (std::string_view(section) == "texture")
+            inner->word("height_map", preset.height_map, kHeightMapNames);
+        inner->finish(keys_of_sections());
     }
-
-    /// The top level's species keys are every species' defaults; an element brings its own for the
-    /// head.
-    void species(const toml::array& kinds) {
-        const Species common = preset_.species.front();
-        preset_.species.clear();
-        for (const toml::node& node : kinds) {
-            const toml::table& table = *node.as_table();
-            Species one = common;
-            one.name = fmt::format("species{}", preset_.species.size());
-            if (const toml::node* element = table.get("element"))
-                apply_element(one, *element);
-            for (const auto& [key, value] : table)
-                entry(Scope::kSpecies, one, key, value);
-            for (const Species& other : preset_.species)
-                if (other.name == one.name)
-                    refuse(line_of(node), "species.name", one.name + " a second time",
-                           "a name of its own");
-            preset_.species.push_back(one);
-        }
-    }
-
-    void apply_element(Species& one, const toml::node& node) const {
-        const std::string name = node.value<std::string>().value_or("");
-        for (const Element& element : elements())
-            if (element.name == name) {
-                one.taper = element.taper;
-                one.stalk = element.stalk;
-                one.head_from = element.head_from;
-                one.fullness = element.fullness;
-                return;
-            }
-        refuse(line_of(node), "species.element", shown(node), "blade, seed_head, leaf or flower");
-    }
-
-    /// A key, or a section of keys.
-    void entry(Scope scope, Species& one, const toml::key& key, const toml::node& node) {
-        const toml::table* section = node.as_table();
-        const bool known = std::ranges::any_of(preset_fields(), [&](const Field& field) {
-            return !field.section.empty() && field.section == key.str() && stands_in(field, scope);
-        });
-        if (!section || !known)
-            return value(scope, one, "", key, node);
-        for (const auto& [inner, item] : *section)
-            value(scope, one, key.str(), inner, item);
-    }
-
-    void value(Scope scope, Species& one, std::string_view section, const toml::key& key,
-               const toml::node& node) {
-        for (const Field& field : preset_fields())
-            if (field.section == section && field.key == key.str() && stands_in(field, scope))
-                return Reader{file_, field, node}.read({preset_, one});
-        refuse(static_cast<int>(key.source().begin.line), "unknown key",
-               key.str().empty() ? "\"\"" : base::printable(key.str()),
-               fmt::format("a key such as {}", nearest_key(section, key.str(), scope)));
-    }
-
-    const fs::path& file_;
-    Preset preset_;
-};
+    scene::read_species(table, preset.species.front(), any_key);
+    table.knows("species");
+    table.finish(keys_of_sections());
+    if (const toml::node* kinds = whole.get("species"))
+        read_kinds(*kinds, file, preset);
+    return preset;
+}
 
 } // namespace
 
@@ -251,7 +149,7 @@ Preset parse_preset(const std::string& text, const fs::path& name) {
         base::log_warning(
             fmt::format("{}: nothing is set in it: this is plain meadow grass at its full size",
                         base::printable(name.string(), 300)));
-    Preset preset = PresetReader(name).read(table);
+    Preset preset = read_preset(table, name);
     check_preset(preset, name);
     return preset;
 }
@@ -262,14 +160,14 @@ Preset load_preset(const fs::path& path) {
 
 void override_preset(Preset& preset, const std::string& option, const std::string& key,
                      std::int64_t value) {
-    for (const Field& field : preset_fields()) {
-        if (field.full_key() != key)
+    for (const PresetKey& one : kKeys) {
+        if (one.full() != key)
             continue;
         const auto number = static_cast<double>(value);
-        if (!(number >= field.low && number <= field.high))
+        if (!(number >= one.range.low && number <= one.range.high))
             throw base::Error(ExitCode::kUsage, fmt::format("{}: found {}, expected {}", option,
-                                                            value, field.expected()));
-        preset.*std::get<std::int64_t Preset::*>(field.target) = value;
+                                                            value, scene::whole_number(one.range)));
+        preset.*std::get<std::int64_t Preset::*>(one.target) = value;
     }
 }
 

@@ -7,60 +7,21 @@
 #include <string>
 #include <vector>
 
-#include "shared/grass_layout.h"
+#include "scene/species.h"
 
 namespace sward::texgen {
 
-/// Values drawn evenly between two ends, both included.
-struct Range {
-    double low = 0;
-    double high = 0;
-};
+using scene::appearance;
+using scene::Colour;
+using scene::Element;
+using scene::Species;
+using Range = scene::Span;
 
 inline constexpr int kFarRays = 32768;
 
-using Colour = std::array<double, 3>; ///< linear reflectance, Rec. 709 primaries
-
-/// A kind of plant part as a person writes it (docs/texgen.md). Defaults are the shipped meadow's
-/// grass.
-struct Species {
-    std::string name = "grass";
-    /// What is drawn: "blade" tapers from its root; "seed_head", "leaf" and "flower" are strips
-    /// with a head on a stalk, whose `head_from`, `stalk`, `fullness` and `taper` have other
-    /// defaults.
-    std::string element = "blade";
-    double share = 1; ///< weight among the preset's species: its share of the blades
-
-    double tuft_share = 0.55; ///< share of the blades that stand in tufts
-    Range tuft_radius_m{0.03, 0.08};
-    Range tuft_blades{8, 22};
-
-    Range length_m{0.18, 0.36};  ///< along the curve
-    Range width_m{0.004, 0.008}; ///< full width where it is widest
-    double taper = 2;            ///< width falls as 1 - v^taper
-    Range lean_deg{0, 16};       ///< of the root from the vertical
-    Range curvature_deg{5, 34};  ///< angle between the tangents of root and tip
-    Range stiffness{0.35, 0.8};  ///< 0 limp, 1 stiff: for the physics, no effect on the rest pose
-    /// Weight's part of the curve: adds up to kDroopDeg for a blade of full length.
-    Range droop{0, 0.35};
-
-    double head_from = 1; ///< place along the blade where the head begins; 1: none
-    double stalk = 1;     ///< width of the stalk over the head's
-    double fullness = 1;  ///< of the head: 0.5 an ellipse, 1 a spindle, more: pointed
-
-    Colour root{0.052, 0.088, 0.022};
-    Colour tip{0.078, 0.152, 0.032};
-    Colour dry{0.215, 0.175, 0.080};
-    Colour head{0.16, 0.13, 0.06};
-    double dry_share = 0.07;
-    double variation = 0.45;
-
-    double kd = 1;
-    double pd = 1;
-    double ks = 0.06;
-    double ps = 18;
-    double translucency = 0.45;
-};
+/// B1: one height map a variant instead of an image a layer; kTop is top-weighted.
+enum class HeightMap { kNone, kLinear, kTop };
+inline constexpr std::array<const char*, 3> kHeightMapNames = {"none", "linear", "top"};
 
 /// A grass set as a person writes it.
 struct Preset {
@@ -86,9 +47,7 @@ struct Preset {
     std::int64_t far_rays = kFarRays; ///< of a view of the far table; time grows with them, its
                                       ///< noise falls with their root
 
-    /// B1: "linear" or "top" (top-weighted): one height map a variant instead of an image a layer.
-    /// "none" otherwise.
-    std::string height_map = "none";
+    HeightMap height_map = HeightMap::kNone;
 
     /// False: blades that cross the patch's edge are cut, and the set shows its joints. For tests.
     bool wrap = true;
@@ -127,8 +86,6 @@ void check_preset(const Preset& preset, const std::filesystem::path& origin);
 
 /// kHeightNone, kHeightLinear or kHeightTop.
 [[nodiscard]] int height_coding(const Preset& preset);
-
-[[nodiscard]] shared::GrassAppearance appearance(const Species& species);
 
 /// Blades of each species on a patch: the shares of its blades, in whole numbers that add up.
 [[nodiscard]] std::vector<std::size_t> species_counts(const Preset& preset);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/angles.h"
 #include "base/error.h"
 #include "texgen/preset/preset.h"
 
@@ -31,9 +32,9 @@ double array_bytes(double width, double height, double images) {
 /// The longest blade, leaning and bending most, as a circular arc: chord L sin(b/2)/(b/2) at the
 /// mean angle.
 double species_reach(const Species& species) {
-    constexpr double kRadians = std::numbers::pi / 180;
-    const double lean = species.lean_deg.high * kRadians;
-    const double bend = (species.curvature_deg.high + species.droop.high * kDroopDeg) * kRadians;
+    const double lean = species.lean_deg.high * base::kDegree;
+    const double bend =
+        (species.curvature_deg.high + species.droop.high * kDroopDeg) * base::kDegree;
     double reach = 0;
     for (int i = 1; i <= 64;
          ++i) { // an arc that passes the horizontal comes back: its farthest point counts
@@ -81,8 +82,6 @@ void check_preset(const Preset& preset, const fs::path& origin) {
     if (!std::has_single_bit(static_cast<std::uint64_t>(preset.size)))
         refuse(ExitCode::kBadInput, "texture.size", std::to_string(preset.size),
                "a power of two from 32 to 2048");
-    if (preset.height_map != "none" && height_coding(preset) == shared::kHeightNone)
-        refuse(ExitCode::kBadInput, "texture.height_map", preset.height_map, "none, linear or top");
     if (preset.size >> (preset.levels - 1) < kLeastLevelTexels)
         refuse(ExitCode::kBadInput, "texture.levels", std::to_string(preset.levels),
                "at least 16 texels a side at the last level");
@@ -150,29 +149,9 @@ std::vector<std::size_t> species_counts(const Preset& preset) {
 }
 
 int height_coding(const Preset& preset) {
-    return preset.height_map == "linear" ? shared::kHeightLinear
-           : preset.height_map == "top"  ? shared::kHeightTop
-                                         : shared::kHeightNone;
-}
-
-shared::GrassAppearance appearance(const Species& species) {
-    const auto rgb = [](const Colour& c) {
-        return shared::vec3(static_cast<float>(c[0]), static_cast<float>(c[1]),
-                            static_cast<float>(c[2]));
-    };
-    shared::GrassAppearance look{};
-    look.root = rgb(species.root);
-    look.dry_share = static_cast<float>(species.dry_share);
-    look.tip = rgb(species.tip);
-    look.variation = static_cast<float>(species.variation);
-    look.dry = rgb(species.dry);
-    look.translucency = static_cast<float>(species.translucency);
-    look.gloss = {static_cast<float>(species.kd), static_cast<float>(species.pd),
-                  static_cast<float>(species.ks), static_cast<float>(species.ps)};
-    look.head = rgb(species.head);
-    look.outline = {static_cast<float>(species.taper), static_cast<float>(species.stalk),
-                    static_cast<float>(species.head_from), static_cast<float>(species.fullness)};
-    return look;
+    return preset.height_map == HeightMap::kLinear ? shared::kHeightLinear
+           : preset.height_map == HeightMap::kTop  ? shared::kHeightTop
+                                                   : shared::kHeightNone;
 }
 
 } // namespace sward::texgen
