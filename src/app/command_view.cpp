@@ -139,10 +139,11 @@ private:
         const double latitude = world.elevation.origin ? world.elevation.origin->latitude_deg
                                                        : SunDay::kUsualLatitude_deg;
         const std::unique_ptr<PoseSource> source =
-            record_
-                ? std::make_unique<ReplaySource>(*record_)
-                : make_pose_source(options_, {links_, on_earth,
-                                              links_.out ? grass_share_of(world) : GrassShare()});
+            record_ ? std::make_unique<ReplaySource>(*record_)
+                    : make_pose_source(
+                          options_,
+                          {links_, on_earth,
+                           links_.out || !options_.drive.empty() ? cover_of(world) : CoverAt()});
         if (lead_)
             lead_->begin(flight_of(scene));
         source->add_objects(world);

@@ -30,7 +30,6 @@ constexpr double kChasePitch_deg = -9;
 constexpr double kWakeFrom_mps = 2; // slower, no blade feels its wake
 constexpr double kWakeRadii = 40;   // how long that is
 constexpr std::array<const char*, 3> kCameras = {"driver", "chase", "wheel"};
-constexpr std::array<const char*, drive::kSurfaces> kSurfaceNames = {"grass", "wet grass", "road"};
 
 /// Keys drive as they are held; a wheel and its pedals as far as they are turned and pressed. A
 /// brake pedal brakes and does not drive back.
@@ -43,13 +42,15 @@ drive::Pedals pedals_of(const Input& asked) {
 
 class DriveSource : public PoseSource {
 public:
-    DriveSource(drive::VehicleSpec spec, drive::Surface surface)
-        : spec_(std::move(spec)), surface_(surface) {}
+    DriveSource(drive::VehicleSpec spec, std::optional<drive::Surface> tyres, CoverAt cover)
+        : spec_(std::move(spec)), tyres_(tyres), cover_(std::move(cover)) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         if (!vehicle_) // the land is the same for all of a flight
-            vehicle_.emplace(spec_, drive::DriveLand{moment.land.height,
-                                                     [this](double, double) { return surface_; }});
+            vehicle_.emplace(spec_, drive::DriveLand{moment.land.height, [this, land = moment.land](
+                                                                             double x, double z) {
+                                                         return surface_at(land, {x, z});
+                                                     }});
         if (!told_ || *told_ != pose.pose.position) { // a camera's key, or the beginning
             vehicle_->put(pose.pose.position.x, pose.pose.position.z, pose.pose.yaw_deg);
             eye_.begin(pose.pose.yaw_deg);
@@ -69,8 +70,7 @@ public:
         return vehicle_ ? std::optional(glm::length(vehicle_->state().velocity_mps)) : std::nullopt;
     }
     [[nodiscard]] std::string note() const override {
-        return fmt::format("{} on {}, {} camera", spec_.name,
-                           kSurfaceNames[static_cast<std::size_t>(surface_)], kCameras[camera_]);
+        return fmt::format("{} on {}, {} camera", spec_.name, ground_name(), kCameras[camera_]);
     }
 
     /// Wheels, and the body over them.
@@ -152,6 +152,26 @@ public:
     }
 
 private:
+    [[nodiscard]] drive::Surface surface_at(const Land& land, glm::dvec2 place) const {
+        using drive::Surface;
+        if (tyres_ && *tyres_ != Surface::kWetGrass)
+            return *tyres_;
+        const Surface there = drive::surface_of(cover_(place, glm::vec3(normal_at(land, place))));
+        return tyres_ && there == Surface::kGrass ? Surface::kWetGrass : there;
+    }
+
+    /// Of its left wheels, and of its right ones where those stand on something else.
+    [[nodiscard]] std::string ground_name() const {
+        if (!vehicle_)
+            return "its wheels";
+        const auto wheels = vehicle_->state().wheels;
+        const std::size_t left = static_cast<std::size_t>(wheels[0].surface),
+                          right = static_cast<std::size_t>(wheels[1].surface);
+        return left == right ? drive::kSurfaceNames[left]
+                             : fmt::format("{} and {}", drive::kSurfaceNames[left],
+                                           drive::kSurfaceNames[right]);
+    }
+
     void place_eye(ViewPose& view, const PoseMoment& moment) {
         const drive::VehicleState state = vehicle_->state();
         Angles sight = angles_of(state.turn);
@@ -173,7 +193,8 @@ private:
     }
 
     drive::VehicleSpec spec_;
-    drive::Surface surface_;
+    std::optional<drive::Surface> tyres_;
+    CoverAt cover_;
     std::optional<drive::Vehicle> vehicle_;
     std::optional<glm::dvec3> told_; ///< where the eye was put last
     std::size_t camera_ = 0;
@@ -188,8 +209,8 @@ drive::VehicleSpec find_vehicle(const std::string& name) {
 }
 
 std::unique_ptr<PoseSource> make_drive_source(const drive::VehicleSpec& spec,
-                                              drive::Surface surface) {
-    return std::make_unique<DriveSource>(spec, surface);
+                                              std::optional<drive::Surface> tyres, CoverAt cover) {
+    return std::make_unique<DriveSource>(spec, tyres, std::move(cover));
 }
 
 } // namespace sward::app

@@ -15,7 +15,6 @@
 namespace sward::app {
 namespace {
 
-constexpr double kSlopeStep_m = 0.5; // to both sides: the finest posts
 constexpr double kLongPicture_s =
     1; // in which the socket may have run over: what it holds then is old, and says nothing of now
 
@@ -110,9 +109,9 @@ private:
 class Reporting : public PoseSource {
 public:
     Reporting(std::unique_ptr<PoseSource> source, std::shared_ptr<feed::UdpSender> out,
-              GrassShare grass)
+              CoverAt cover)
         : source_(std::move(source)), feed_(dynamic_cast<const FeedSource*>(source_.get())),
-          out_(std::move(out)), grass_(std::move(grass)) {}
+          out_(std::move(out)), cover_(std::move(cover)) {}
 
     void advance(ViewPose& pose, const PoseMoment& moment) override {
         source_->advance(pose, moment);
@@ -144,14 +143,9 @@ public:
 
 private:
     void describe(feed::GroundReport& report, const Land& land) const {
-        const auto height = [&](double x, double z) {
-            return land.height(report.place.x + x, report.place.y + z);
-        };
-        report.ground_m = height(0, 0);
-        report.normal = glm::normalize(
-            glm::dvec3(height(-kSlopeStep_m, 0) - height(kSlopeStep_m, 0), 2 * kSlopeStep_m,
-                       height(0, -kSlopeStep_m) - height(0, kSlopeStep_m)));
-        report.surface = feed::class_of(grass_(report.place, glm::vec3(report.normal)));
+        report.ground_m = land.height(report.place.x, report.place.y);
+        report.normal = normal_at(land, report.place);
+        report.surface = feed::class_of(cover_(report.place, glm::vec3(report.normal)));
         const glm::dvec2 wind = land.wind(report.place.x, report.place.y);
         report.wind_mps = {wind.x, 0, wind.y};
     }
@@ -159,7 +153,7 @@ private:
     std::unique_ptr<PoseSource> source_;
     const FeedSource* feed_; ///< null: the eye flies by other means
     std::shared_ptr<feed::UdpSender> out_;
-    GrassShare grass_;
+    CoverAt cover_;
     std::uint32_t count_ = 0;
 };
 
@@ -186,8 +180,8 @@ std::unique_ptr<PoseSource> make_feed_source(std::shared_ptr<feed::UdpReceiver> 
 }
 
 std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source,
-                                        std::shared_ptr<feed::UdpSender> out, GrassShare grass) {
-    return std::make_unique<Reporting>(std::move(source), std::move(out), std::move(grass));
+                                        std::shared_ptr<feed::UdpSender> out, CoverAt cover) {
+    return std::make_unique<Reporting>(std::move(source), std::move(out), std::move(cover));
 }
 
 } // namespace sward::app

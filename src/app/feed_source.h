@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "app/feed_links.h"
+#include "app/land_cover.h"
 #include "app/pose_source.h"
 
 namespace sward::app {
@@ -15,6 +16,6 @@ namespace sward::app {
 /// The same source, that tells the other program once a picture what lies under it.
 [[nodiscard]] std::unique_ptr<PoseSource> with_report(std::unique_ptr<PoseSource> source,
                                                       std::shared_ptr<feed::UdpSender> out,
-                                                      GrassShare grass);
+                                                      CoverAt cover);
 
 } // namespace sward::app

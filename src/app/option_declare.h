@@ -17,5 +17,7 @@ CLI::Option* declare(CLI::App& app, const std::string& name, const std::string& 
 
 /// What `sward view` says to and hears from other programs and machines.
 void declare_network(CLI::App& app, Options* o);
+/// What one drives and flies in it.
+void declare_models(CLI::App& app, Options* o);
 
 } // namespace sward::app

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// With options_network.cpp the only file that includes CLI11. Every value goes through parse.h:
+// With the other options_*.cpp the only file that includes CLI11. Every value goes through parse.h:
 // CLI11's own conversions follow the locale and let "64px" pass.
 #include "app/options.h"
 
@@ -43,11 +43,6 @@ constexpr std::array<std::pair<std::string_view, int>, 3> kSamples = {
 
 constexpr std::array<std::pair<std::string_view, const char*>, 5> kSuites = {
     {{"all", "all"}, {"far", "far"}, {"near", "near"}, {"tracks", "tracks"}, {"wind", "wind"}}};
-
-constexpr std::array<std::pair<std::string_view, drive::Surface>, drive::kSurfaces> kSurfaces = {
-    {{"grass", drive::Surface::kGrass},
-     {"wet", drive::Surface::kWetGrass},
-     {"road", drive::Surface::kRoad}}};
 
 constexpr NumberRange kTime{0, 1e9, "seconds"};
 constexpr NumberRange kStep{1e-6, 10, "seconds"};
@@ -254,8 +249,6 @@ void declare_view(CLI::App& app, Options* o) {
                  "scene file, or directory with scene.toml; default: the one that ships",
                  &o->scene);
     declare_frame_options(app, o);
-    app.add_flag("--no-wake", o->no_wake,
-                 "what drives and flies moves no air: saves the wind's local window");
     declare_network(app, o);
     app.add_flag("--list-joysticks", o->list_joysticks,
                  "prints what is plugged in and what controls.toml does with it, and ends");
@@ -276,27 +269,7 @@ void declare_view(CLI::App& app, Options* o) {
                  "several pictures of every moment in one window, as FILE lists them",
                  &o->channels);
     app.get_option("--channels")->excludes("--size")->excludes("--window");
-    declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it",
-            [=](const std::string& text) {
-                if (text.empty() || text.find('\0') != std::string::npos)
-                    throw option_error("--drive", text, "car, tractor or a vehicle's file");
-                o->drive = text;
-            })
-        ->excludes("--replay")
-        ->excludes("--native-fdm");
-    declare(app, "--fly", "AIRCRAFT", "trainer or an aircraft's file: the keyboard flies it",
-            [=](const std::string& text) {
-                if (text.empty() || text.find('\0') != std::string::npos)
-                    throw option_error("--fly", text, "trainer or an aircraft's file");
-                o->fly = text;
-            })
-        ->excludes("--replay")
-        ->excludes("--native-fdm")
-        ->excludes("--drive");
-    declare(
-        app, "--tyres-on", "grass|wet|road", "what the vehicle's tyres stand on; default grass",
-        [=](const std::string& text) { o->tyres = parse_choice("--tyres-on", text, kSurfaces); })
-        ->needs("--drive");
+    declare_models(app, o);
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {
         o->exit_after = static_cast<int>(parse_integer("--frames", text, kExitAfter));
@@ -398,6 +371,7 @@ Options parse_options(int argc, const char* const* argv) {
     declare_render(*render, &o);
     declare_wind(*wind, &o);
     declare_bench(*bench, &o);
+    base::refuse_flag_values(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {

@@ -31,7 +31,7 @@ struct WindowPlace {
 };
 
 /// Everything the command line can say, checked as far as that needs no file. Each option is
-/// declared once, in options.cpp and options_network.cpp; the panel of the viewer edits the same
+/// declared once, in options.cpp or an options_*.cpp; the panel of the viewer edits the same
 /// `frame`.
 struct Options {
     Command command = Command::kHelp;
@@ -86,10 +86,10 @@ struct Options {
     std::filesystem::path record;          ///< written as the flight goes on; empty: none
     std::string drive; ///< a vehicle that ships, or its file; empty: the free camera
     std::string fly;   ///< likewise an aircraft
-    drive::Surface tyres = drive::Surface::kGrass; ///< what it stands on
-    bool no_wake = false;                          ///< what drives and flies moves no air
-    std::optional<WindowPlace> window;             ///< none: of `frame`'s size
-    int exit_after = 0;                            ///< frames; 0: until it is closed
+    std::optional<drive::Surface> tyres; ///< what it stands on all over; none: what lies there
+    bool no_wake = false;                ///< what drives and flies moves no air
+    std::optional<WindowPlace> window;   ///< none: of `frame`'s size
+    int exit_after = 0;                  ///< frames; 0: until it is closed
 };
 
 /// Parses a command line. Throws Error: kUsage, kOverLimit for a size past the limit.

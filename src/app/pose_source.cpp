@@ -43,13 +43,13 @@ std::unique_ptr<PoseSource> make_pose_source(const Options& options, const Sourc
     if (parts.links.in)
         source = make_feed_source(parts.links.in, parts.on_earth);
     else if (!options.drive.empty())
-        source = make_drive_source(find_vehicle(options.drive), options.tyres);
+        source = make_drive_source(find_vehicle(options.drive), options.tyres, parts.cover);
     else if (!options.fly.empty())
         source = source_of(find_aircraft(options.fly));
     else
         source = std::make_unique<FreeFlight>();
     if (parts.links.out)
-        source = with_report(std::move(source), parts.links.out, parts.grass);
+        source = with_report(std::move(source), parts.links.out, parts.cover);
     return source;
 }
 

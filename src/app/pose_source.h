@@ -8,6 +8,7 @@
 
 #include "app/feed_links.h"
 #include "app/flow_overlay.h"
+#include "app/land_cover.h"
 #include "app/options.h"
 #include "app/view_pose.h"
 #include "app/window.h"
@@ -60,7 +61,7 @@ public:
 struct SourceParts {
     FeedLinks links;              ///< open_feed()
     scene::PlaceOnEarth on_earth; ///< null where the terrain has no place on Earth
-    GrassShare grass;             ///< grass_share_of(), where `links.out` stands
+    CoverAt cover;                ///< cover_of(), where `links.out` stands or something drives
 };
 /// The source that the options name: the one place where it is chosen. Throws Error.
 [[nodiscard]] std::unique_ptr<PoseSource> make_pose_source(const Options& options,

@@ -26,4 +26,30 @@ template<class App>
     return nearest.empty() ? "" : ", perhaps " + nearest;
 }
 
+/// A flag has no value: CLI11 takes `--flag=3` for three of it, and `--flag=false` for none. Of the
+/// flags of `app`, which has not parsed yet, and of the command that is named. Throws
+/// Error(kUsage).
+template<class App> void refuse_flag_values(const App& app, int argc, const char* const* argv) {
+    const App* command = nullptr;
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        if (word == "--")
+            return;
+        if (!command && !is_option(word))
+            for (const App* const one : app.get_subcommands([](const App*) { return true; }))
+                command = one->get_name() == word ? one : command;
+        const std::size_t sign = word.find('=');
+        if (!word.starts_with("-") || sign == std::string::npos)
+            continue;
+        const std::string name = word.substr(0, sign);
+        const auto* option = command ? command->get_option_no_throw(name) : nullptr;
+        if (!option)
+            option = app.get_option_no_throw(name);
+        if (option && option->get_expected_max() == 0)
+            throw Error(ExitCode::kUsage, name + ": found \"" +
+                                              printable(word.substr(sign + 1), 300) +
+                                              "\", expected no value: it is a flag");
+    }
+}
+
 } // namespace sward::base

@@ -180,8 +180,10 @@ struct Vehicle::Inside {
         double rolling = 0;
         for (int i = 0; i < 4; ++i) {
             btWheelInfo& wheel = vehicle->getWheelInfo(i);
-            const auto surface = static_cast<std::size_t>(
-                surface_at(origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS)));
+            const Surface under =
+                surface_at(origin + of_bullet(wheel.m_raycastInfo.m_contactPointWS));
+            const auto surface = static_cast<std::size_t>(under);
+            now.wheels[static_cast<std::size_t>(i)].surface = under;
             grip[static_cast<std::size_t>(i)] = spec.grip[surface];
             wheel.m_frictionSlip = static_cast<btScalar>(spec.grip[surface]);
             if (wheel.m_raycastInfo.m_isInContact)

@@ -28,7 +28,8 @@ struct Pedals {
 
 struct WheelState {
     bool touches = false;
-    glm::dvec3 contact{0}; ///< on the ground, where it touches
+    glm::dvec3 contact{0};             ///< on the ground, where it touches
+    Surface surface = Surface::kGrass; ///< that it stands on, or stood on last
     double load_n = 0;
     glm::dvec3 hub{0}; ///< its middle
     glm::dquat turn{1, 0, 0,

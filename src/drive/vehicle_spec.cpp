@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drive/vehicle_spec.h"
 
+#include <algorithm>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "base/file.h"
@@ -33,6 +36,13 @@ AxleSpec read_axle(TableReader table) {
     return axle;
 }
 
+void read_surfaces(TableReader& table, const char* key, std::array<double, kSurfaces>& values,
+                   const Range& range) {
+    std::vector<double> read;
+    if (table.numbers(key, read, std::vector<Range>(kSurfaces, range)))
+        std::copy_n(read.begin(), kSurfaces, values.begin());
+}
+
 } // namespace
 
 VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
@@ -51,8 +61,8 @@ VehicleSpec parse_vehicle(const std::string& text, const fs::path& file) {
     reader.number("top_kmh", spec.top_kmh, {1, 400, "km/h"});
     reader.number("brake_kn", spec.brake_kn, {0.1, 1000, "kN"});
     reader.number("drag_m2", spec.drag_m2, {0, 20, "m2"});
-    reader.three("grip", spec.grip, {0.02, 2, ""});
-    reader.three("rolling", spec.rolling, {0, 0.5, ""});
+    read_surfaces(reader, "grip", spec.grip, {0.02, 2, ""});
+    read_surfaces(reader, "rolling", spec.rolling, {0, 0.5, ""});
     reader.three("eye_m", spec.eye_m, {-10, 10, "m"});
     auto front = reader.table("front"), rear = reader.table("rear");
     reader.finish();

@@ -7,11 +7,9 @@
 
 #include <glm/glm.hpp>
 
-namespace sward::drive {
+#include "drive/surface.h"
 
-/// What a wheel stands on.
-enum class Surface { kGrass, kWetGrass, kRoad };
-inline constexpr std::size_t kSurfaces = 3;
+namespace sward::drive {
 
 /// An axle: two wheels alike, left and right of the middle.
 struct AxleSpec {
@@ -36,10 +34,11 @@ struct VehicleSpec {
     double power_kw = 90, pull_kn = 6; ///< of the engine; of its wheels at most
     double reverse_kmh = 25, top_kmh = 180;
     double brake_kn = 12;
-    double drag_m2 = 0.7;                                     ///< area times coefficient
-    std::array<double, kSurfaces> grip{0.6, 0.35, 0.95};      ///< of the tyres, over their load
-    std::array<double, kSurfaces> rolling{0.06, 0.09, 0.012}; ///< resistance, over their load
-    std::array<AxleSpec, 2> axles{};                          ///< front, rear
+    double drag_m2 = 0.7; ///< area times coefficient
+    /// Of the tyres over their load, by Surface: grip, and what holds a rolling wheel back.
+    std::array<double, kSurfaces> grip{0.6, 0.35, 0.95, 0.62, 0.45};
+    std::array<double, kSurfaces> rolling{0.06, 0.09, 0.012, 0.035, 0.15};
+    std::array<AxleSpec, 2> axles{}; ///< front, rear
     glm::dvec3 eye_m{-0.35, 1.15,
                      0.2}; ///< the driver's, from the middle of the vehicle on the ground
 };

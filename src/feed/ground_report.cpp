@@ -10,7 +10,7 @@ namespace sward::feed {
 namespace {
 
 using base::kDegree;
-constexpr double kBareShare = 0.05, kSparseShare = 0.5;
+constexpr double kSparseShare = 0.5;
 constexpr std::uint32_t kMagic = 0x53574744; // "SWGD"
 constexpr std::uint32_t kFed = 1, kStands = 2;
 
@@ -22,12 +22,27 @@ void write_floats(std::span<std::byte> packet, std::size_t offset, glm::dvec3 va
 
 } // namespace
 
-SurfaceClass class_of(double share) {
-    if (!(share >= 0)) // NaN too
+SurfaceClass class_of(const scene::GroundCover& cover) {
+    using scene::GroundKind;
+    if (!cover.known)
         return SurfaceClass::kUnknown;
-    return share < kBareShare     ? SurfaceClass::kBare
-           : share < kSparseShare ? SurfaceClass::kSparse
-                                  : SurfaceClass::kGrass;
+    if (!cover.bare())
+        return cover.grass < kSparseShare ? SurfaceClass::kSparse : SurfaceClass::kGrass;
+    switch (cover.ground) {
+    case GroundKind::kRock:
+        return SurfaceClass::kRock;
+    case GroundKind::kSand:
+        return SurfaceClass::kSand;
+    case GroundKind::kGravel:
+        return SurfaceClass::kGravel;
+    case GroundKind::kAsphalt:
+        return SurfaceClass::kAsphalt;
+    case GroundKind::kWater:
+        return SurfaceClass::kWater;
+    case GroundKind::kSoil:
+        break;
+    }
+    return SurfaceClass::kBare;
 }
 
 std::array<std::byte, kReportBytes> encode_report(const GroundReport& report) {

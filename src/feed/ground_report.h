@@ -8,6 +8,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "scene/ground_cover.h"
+
 namespace sward::feed {
 
 inline constexpr std::uint32_t kReportVersion = 1;
@@ -16,12 +18,16 @@ inline constexpr std::size_t kReportBytes = 96;
 /// What lies under the aircraft. The numbers are the packet's own.
 enum class SurfaceClass : std::uint32_t {
     kUnknown = 0, ///< beyond the terrain, or a scene that does not say
-    kBare = 1,    ///< grass on less than 5 % of what could stand
+    kBare = 1,    ///< soil, or of unknown kind: grass on less than 5 % of what could stand
     kSparse = 2,  ///< less than half
     kGrass = 3,
+    kRock = 4, ///< these are bare too
+    kSand = 5,
+    kGravel = 6,
+    kAsphalt = 7,
+    kWater = 8,
 };
-/// `share` of the blades that could stand, 0 to 1.
-[[nodiscard]] SurfaceClass class_of(double share);
+[[nodiscard]] SurfaceClass class_of(const scene::GroundCover& cover);
 
 /// What Sward sends back once a picture.
 struct GroundReport {

@@ -14,25 +14,13 @@ namespace {
 
 using glm::dvec3;
 
-constexpr double kGravity = 9.81, kAir = 1.225; // m/s2; kg/m3 at sea level
-using base::kDegree;
 constexpr double kSlowest_mps = 1;   // slower air gives angles no sense
 constexpr double kSag_m = 0.1;       // of a wheel under its share of the weight
 constexpr double kGearDamping = 0.5; // share of the critical one
 constexpr double kRolling = 0.04, kBraked = 0.45, kSideways = 0.7; // of a tyre's load, on grass
 constexpr double kSteer = 20 * kDegree;                            // of the nose wheel
 constexpr double kHardest_mps = 5; // a landing that the gear survives
-constexpr double kCrashed_s = 3;
 constexpr double kStallBlend = 40; // how sharply the flow leaves the wing, 1/rad
-
-/// The world's turn of aerodynamic axes (ahead, right, down) from ours (right, up, behind), and
-/// back.
-dvec3 to_air(const dvec3& v) {
-    return {-v.z, v.x, -v.y};
-}
-dvec3 from_air(const dvec3& v) {
-    return {v.y, -v.z, -v.x};
-}
 
 } // namespace
 
@@ -67,7 +55,7 @@ void Aeroplane::trim() {
 void Aeroplane::put_on_ground(double x, double z, double yaw_deg) {
     start_ = {};
     start_.position = {x, land_.height(x, z) + spec_.gear_m, z};
-    start_.turn = glm::angleAxis(-yaw_deg * kDegree, dvec3(0, 1, 0));
+    start_.turn = heading(yaw_deg);
     start_.on_ground = true;
     begin_again();
 }
@@ -75,26 +63,16 @@ void Aeroplane::put_on_ground(double x, double z, double yaw_deg) {
 void Aeroplane::put_in_air(const dvec3& position, double yaw_deg) {
     start_ = {};
     start_.position = position;
-    start_.turn = glm::angleAxis(-yaw_deg * kDegree, dvec3(0, 1, 0)) *
-                  glm::angleAxis(trim_attack_, dvec3(1, 0, 0));
-    const glm::dvec2 wind = land_.wind ? land_.wind(position.x, position.z) : glm::dvec2(0);
+    start_.turn = heading(yaw_deg) * glm::angleAxis(trim_attack_, dvec3(1, 0, 0));
     start_.velocity_mps =
-        base::direction_of(yaw_deg, 0) * spec_.cruise_mps +
-        dvec3(wind.x, 0, wind.y);
+        base::direction_of(yaw_deg, 0) * spec_.cruise_mps + land_.wind_at(position);
     begin_again();
-}
-
-void Aeroplane::begin_again() {
-    now_ = before_ = start_;
-    crashed_s_ = 0;
 }
 
 /// Lift, drag and moments of the air that it moves through, and the propeller's pull.
 void Aeroplane::add_air(const Stick& stick, Sum& sum) {
     const Derivatives& air = spec_.air;
-    const glm::dvec2 wind =
-        land_.wind ? land_.wind(now_.position.x, now_.position.z) : glm::dvec2(0);
-    const dvec3 through = now_.velocity_mps - dvec3(wind.x, 0, wind.y);
+    const dvec3 through = now_.velocity_mps - land_.wind_at(now_.position);
     const dvec3 v = to_air(glm::inverse(now_.turn) * through);
     const double speed = glm::length(v), pull_speed = std::max(kSlowest_mps, v.x);
     now_.airspeed_mps = speed;
@@ -185,17 +163,6 @@ void Aeroplane::add_wheels(const Stick& stick, Sum& sum) {
     }
 }
 
-/// Euler's equations about the axes of inertia.
-void Aeroplane::turn_by(const dvec3& moment) {
-    const dvec3 momentum = spec_.inertia_kgm2 * now_.rates;
-    now_.rates += (moment - glm::cross(now_.rates, momentum)) / spec_.inertia_kgm2 * kStep_s;
-    now_.rates = glm::clamp(now_.rates, -10.0, 10.0);
-    const dvec3 by = from_air(now_.rates) * kStep_s;
-    const double angle = glm::length(by);
-    if (angle > 1e-12)
-        now_.turn = glm::normalize(now_.turn * glm::angleAxis(angle, by / angle));
-}
-
 /// Whether nose, tail or a wing's tip is in the ground.
 bool Aeroplane::hits() const {
     const double half = spec_.span_m / 2, nose = -0.35 * spec_.length_m,
@@ -210,10 +177,8 @@ bool Aeroplane::hits() const {
 }
 
 void Aeroplane::step(const Stick& stick) {
-    before_ = now_;
     if (now_.crashed) {
-        crashed_s_ += kStep_s;
-        if (crashed_s_ > kCrashed_s)
+        if (lain_long_enough())
             begin_again();
         return;
     }
@@ -225,33 +190,15 @@ void Aeroplane::step(const Stick& stick) {
     add_wheels(stick, sum);
     now_.velocity_mps += sum.force / spec_.mass_kg * kStep_s;
     now_.position += now_.velocity_mps * kStep_s;
-    turn_by(sum.moment);
-    const bool finite = std::isfinite(glm::dot(now_.position, now_.position) +
-                                      glm::dot(now_.velocity_mps, now_.velocity_mps) +
-                                      glm::dot(now_.rates, now_.rates));
-    if (!finite)
+    turn_by(now_, spec_.inertia_kgm2, sum.moment);
+    if (!now_.finite())
         begin_again();
-    else if (hits() || (flew && now_.on_ground && sinking > kHardest_mps)) {
-        now_.crashed = true;
-        now_.velocity_mps = now_.rates = dvec3(0);
-        before_ = now_;
-    }
+    else if (hits() || (flew && now_.on_ground && sinking > kHardest_mps))
+        crash();
 }
 
 void Aeroplane::advance(double dt_s, const Stick& stick) {
-    owed_s_ += std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kMost_s) : 0.0;
-    while (owed_s_ >= kStep_s) {
-        owed_s_ -= kStep_s;
-        step(stick);
-    }
-}
-
-AeroplaneState Aeroplane::state() const {
-    const double share = std::clamp(owed_s_ / kStep_s, 0.0, 1.0);
-    AeroplaneState between = now_;
-    between.position = before_.position + (now_.position - before_.position) * share;
-    between.turn = glm::slerp(before_.turn, now_.turn, share);
-    return between;
+    take_steps(dt_s, [&] { step(stick); });
 }
 
 } // namespace sward::fly

@@ -2,20 +2,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 
 #include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "fly/aeroplane_spec.h"
+#include "fly/motion.h"
 
 namespace sward::fly {
-
-/// What is flown over and through, world metres.
-struct FlyLand {
-    std::function<double(double x, double z)> height;
-    std::function<glm::dvec2(double x, double z)> wind; ///< m/s to the east and south; null: none
-};
 
 /// What the pilot does, -1 to 1.
 struct Stick {
@@ -26,27 +19,18 @@ struct Stick {
     double brake = 0;    ///< 0 to 1, main wheels
 };
 
-struct AeroplaneState {
-    glm::dvec3 position{0};      ///< of the centre of mass
-    glm::dquat turn{1, 0, 0, 0}; ///< of its frame (x right, y up, z behind) in the world
-    glm::dvec3 velocity_mps{0};  ///< over the ground
-    glm::dvec3 rates{0};         ///< roll, pitch, yaw (rad/s): right wing down, nose up, nose right
-    double airspeed_mps = 0;
+struct AeroplaneState : AircraftState {
     double pull_n = 0;                   ///< of the propeller
     double attack_rad = 0, slip_rad = 0; ///< angle of attack; wind from the right
-    bool stalled = false, on_ground = false, crashed = false;
-    [[nodiscard]] glm::dvec3 ahead() const { return turn * glm::dvec3(0, 0, -1); }
+    bool stalled = false;
 };
 
 /// Six degrees of freedom at a fixed step, whatever the pictures' rate: lift with stall, induced
 /// drag with ground effect, moments by derivatives, a propeller of constant power, three sprung
 /// wheels. What hits the ground with more than its wheels, or too hard, has crashed: some seconds
 /// later it is where it began. Throws nothing after construction.
-class Aeroplane {
+class Aeroplane : private Motion<AeroplaneState> {
 public:
-    static constexpr double kStep_s = 1.0 / 240;
-    static constexpr double kMost_s = 0.25; ///< in one call
-
     Aeroplane(const AeroplaneSpec& spec, FlyLand land);
 
     /// On its wheels at world x, z, engine idle.
@@ -56,7 +40,7 @@ public:
     /// The throttle at which it flies level at cruising speed, 0 to 1.
     [[nodiscard]] double cruise_throttle() const { return cruise_throttle_; }
     void advance(double dt_s, const Stick& stick);
-    [[nodiscard]] AeroplaneState state() const;
+    [[nodiscard]] AeroplaneState state() const { return shown(); }
     [[nodiscard]] const AeroplaneSpec& spec() const { return spec_; }
 
 private:
@@ -74,17 +58,12 @@ private:
     void step(const Stick& stick);
     void add_air(const Stick& stick, Sum& sum);
     void add_wheels(const Stick& stick, Sum& sum);
-    void turn_by(const glm::dvec3& moment);
     [[nodiscard]] bool hits() const;
-    void begin_again();
 
     AeroplaneSpec spec_;
     FlyLand land_;
     std::array<Wheel, 3> wheels_;
-    AeroplaneState before_, now_;
-    double owed_s_ = 0, crashed_s_ = 0;
     double trim_elevator_ = 0, trim_attack_ = 0, cruise_throttle_ = 0; ///< rad, rad, 0 to 1
-    AeroplaneState start_;
 };
 
 } // namespace sward::fly

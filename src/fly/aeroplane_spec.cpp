@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "base/angles.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "fly/motion.h"
 #include "scene/toml_reader.h"
 
 namespace sward::fly {
@@ -75,8 +75,8 @@ AeroplaneSpec parse_aeroplane(const std::string& text, const std::filesystem::pa
         read_air(*air, spec.air);
     reader.finish();
     const double lift =
-        2 * spec.mass_kg * 9.81 / (1.225 * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
-    const double most = spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * base::kDegree;
+        2 * spec.mass_kg * kGravity / (kAir * spec.wing_m2 * spec.cruise_mps * spec.cruise_mps);
+    const double most = spec.air.lift_zero + spec.air.lift_slope * spec.stall_deg * kDegree;
     if (lift > 0.8 * most)
         throw reader.error(
             "cruise_mps",

@@ -15,8 +15,6 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-constexpr double kGravity = 9.81, kAir = 1.225; // m/s2; kg/m3 at sea level
-using base::kDegree;
 constexpr double kFinSlope = 3;      // lift of fin and tailplane over their angle, small and stubby
 constexpr double kDamping = 0.8;     // of the pilot's help, share of the critical one
 constexpr double kStandFade_mps = 4; // from twice this speed on nothing holds it over a place
@@ -29,15 +27,6 @@ constexpr double kSag_m = 0.04;      // of a skid under its share of the weight
 constexpr double kSkidDamping = 0.7; // share of the critical one
 constexpr double kSkidGrip = 0.5;    // on grass
 constexpr double kHardest_mps = 4;   // a landing that the skids survive
-constexpr double kCrashed_s = 3;
-
-/// Aerodynamic axes (ahead, right, down) to ours (right, up, behind).
-dvec3 from_air(const dvec3& v) {
-    return {v.y, -v.z, -v.x};
-}
-dvec3 to_air(const dvec3& v) {
-    return {-v.z, v.x, -v.y};
-}
 
 double bank_of(const glm::dquat& turn) {
     return std::atan2(-(turn * dvec3(1, 0, 0)).y, (turn * dvec3(0, 1, 0)).y);
@@ -67,7 +56,7 @@ double Helicopter::hover_lever() const {
 void Helicopter::put_on_ground(double x, double z, double yaw_deg) {
     start_ = {};
     start_.position = {x, land_.height(x, z) + spec_.skid_m, z};
-    start_.turn = glm::angleAxis(-yaw_deg * kDegree, dvec3(0, 1, 0));
+    start_.turn = heading(yaw_deg);
     start_.on_ground = true;
     begin_again();
 }
@@ -76,23 +65,21 @@ void Helicopter::put_in_air(const dvec3& position, double yaw_deg) {
     start_ = {};
     start_.position = position;
     start_.turn =
-        glm::angleAxis(-yaw_deg * kDegree, dvec3(0, 1, 0)) *
+        heading(yaw_deg) *
         glm::angleAxis(hover_torque_ / spec_.tail_m / (spec_.mass_kg * kGravity), dvec3(0, 0, 1));
     start_.thrust_n = spec_.mass_kg * kGravity;
     begin_again();
 }
 
 void Helicopter::begin_again() {
-    now_ = before_ = start_;
-    rotor_.settle(start_.thrust_n);
-    tail_n_ = start_.on_ground ? 0 : hover_torque_ / spec_.tail_m;
-    crashed_s_ = 0;
+    Motion::begin_again();
+    rotor_.settle(now_.thrust_n);
+    tail_n_ = now_.on_ground ? 0 : hover_torque_ / spec_.tail_m;
 }
 
 /// Its way through the air, in its own frame.
 dvec3 Helicopter::through_air() const {
-    const dvec2 wind = land_.wind ? land_.wind(now_.position.x, now_.position.z) : dvec2(0);
-    return glm::inverse(now_.turn) * (now_.velocity_mps - dvec3(wind.x, 0, wind.y));
+    return glm::inverse(now_.turn) * (now_.velocity_mps - land_.wind_at(now_.position));
 }
 
 /// 1 hands off and slow, where the help brings it to stand over a place.
@@ -248,17 +235,6 @@ void Helicopter::add_skids(Sum& sum) {
     }
 }
 
-/// Euler's equations about the axes of inertia.
-void Helicopter::turn_by(const dvec3& moment) {
-    const dvec3 momentum = spec_.inertia_kgm2 * now_.rates;
-    now_.rates += (moment - glm::cross(now_.rates, momentum)) / spec_.inertia_kgm2 * kStep_s;
-    now_.rates = glm::clamp(now_.rates, -10.0, 10.0);
-    const dvec3 by = from_air(now_.rates) * kStep_s;
-    const double angle = glm::length(by);
-    if (angle > 1e-12)
-        now_.turn = glm::normalize(now_.turn * glm::angleAxis(angle, by / angle));
-}
-
 /// Whether nose, tail or the rotor is in the ground.
 bool Helicopter::hits() const {
     const auto in_ground = [&](const dvec3& part) {
@@ -275,10 +251,8 @@ bool Helicopter::hits() const {
 }
 
 void Helicopter::step(const HelicopterStick& stick) {
-    before_ = now_;
     if (now_.crashed) {
-        crashed_s_ += kStep_s;
-        if (crashed_s_ > kCrashed_s)
+        if (lain_long_enough())
             begin_again();
         return;
     }
@@ -293,17 +267,12 @@ void Helicopter::step(const HelicopterStick& stick) {
     add_skids(sum);
     now_.velocity_mps += (now_.turn * sum.force / spec_.mass_kg - dvec3(0, kGravity, 0)) * kStep_s;
     now_.position += now_.velocity_mps * kStep_s;
-    turn_by(sum.moment);
-    const bool finite = std::isfinite(glm::dot(now_.position, now_.position) +
-                                      glm::dot(now_.velocity_mps, now_.velocity_mps) +
-                                      glm::dot(now_.rates, now_.rates) + now_.thrust_n);
-    if (!finite) {
+    turn_by(now_, spec_.inertia_kgm2, sum.moment);
+    if (!now_.finite() || !std::isfinite(now_.thrust_n)) {
         begin_again();
     } else if (hits() || (flew && now_.on_ground && sinking > kHardest_mps)) {
-        now_.crashed = true;
-        now_.velocity_mps = now_.rates = dvec3(0);
         now_.thrust_n = now_.inflow_mps = now_.engine_w = 0;
-        before_ = now_;
+        crash();
     }
 }
 
@@ -312,19 +281,7 @@ void Helicopter::advance(double dt_s, const HelicopterStick& asked) {
     for (double* const part : {&stick.roll, &stick.pitch, &stick.yaw, &stick.lever})
         if (!std::isfinite(*part))
             *part = 0;
-    owed_s_ += std::isfinite(dt_s) ? std::clamp(dt_s, 0.0, kMost_s) : 0.0;
-    while (owed_s_ >= kStep_s) {
-        owed_s_ -= kStep_s;
-        step(stick);
-    }
-}
-
-HelicopterState Helicopter::state() const {
-    const double share = std::clamp(owed_s_ / kStep_s, 0.0, 1.0);
-    HelicopterState between = now_;
-    between.position = before_.position + (now_.position - before_.position) * share;
-    between.turn = glm::slerp(before_.turn, now_.turn, share);
-    return between;
+    take_steps(dt_s, [&] { step(stick); });
 }
 
 } // namespace sward::fly

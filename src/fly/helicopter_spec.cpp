@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "fly/motion.h"
 #include "scene/toml_reader.h"
 
 namespace sward::fly {
@@ -15,8 +16,8 @@ namespace {
 
 using scene::TableReader;
 
-constexpr std::uint64_t kLimit = 1u << 16;     // bytes of a file
-constexpr double kGravity = 9.81, kRoom = 1.1; // of the power that hovering takes
+constexpr std::uint64_t kLimit = 1u << 16; // bytes of a file
+constexpr double kRoom = 1.1;              // of the power that hovering takes
 
 void read_rotor(TableReader& table, RotorSpec& rotor) {
     table.number("radius_m", rotor.radius_m, {0.5, 20, "m"});
@@ -76,14 +77,14 @@ void read_body(TableReader& reader, HelicopterSpec& spec) {
 void check_hover(const TableReader& reader, const HelicopterSpec& spec) {
     const double weight = spec.mass_kg * kGravity;
     const Rotor rotor(spec.rotor);
-    const double profile = spec.rotor.solidity() * spec.rotor.profile_drag / 8 * 1.225 *
+    const double profile = spec.rotor.solidity() * spec.rotor.profile_drag / 8 * kAir *
                            spec.rotor.area_m2() * std::pow(spec.rotor.tip_mps, 3);
     const double takes_kw = (1.15 * weight * rotor.hover_inflow_mps(weight) + profile) / 1000;
     if (takes_kw * kRoom > spec.power_kw * spec.transmission)
         throw reader.error("power_kw", fmt::format("{} kW", spec.power_kw),
                            fmt::format("{:.0f} kW or more: a hover takes {:.0f} of the rotor",
                                        takes_kw * kRoom / spec.transmission, takes_kw));
-    const double blade_deg = rotor.hover_blade_rad(weight) * 180 / 3.14159265358979;
+    const double blade_deg = rotor.hover_blade_rad(weight) / kDegree;
     if (!(blade_deg > spec.rotor.collective_deg.x && blade_deg < spec.rotor.collective_deg.y - 1))
         throw reader.error(
             "rotor",

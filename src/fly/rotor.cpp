@@ -6,10 +6,11 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "fly/motion.h"
+
 namespace sward::fly {
 namespace {
 
-constexpr double kAir = 1.225;         // kg/m3 at sea level
 constexpr double kInduced = 1.15;      // of the ideal power: tips, and flow that is not even
 constexpr double kInflow_s = 0.1;      // in which the flow follows the thrust
 constexpr double kMostLift = 0.16;     // thrust coefficient over solidity at which blades stall

@@ -139,6 +139,7 @@ void read_wind(TableReader table, const std::map<std::string, Path>& paths, Wind
     table.number("gust", wind.gust, kShare);
     table.integer("seed", wind.seed, 0, std::numeric_limits<int>::max());
     table.integer("cells", wind.cells, 16, 4096);
+    table.integer("moving_cells", wind.moving_cells, 16, 4096);
     table.number("cell_m", wind.cell_m, {0.05, 10, "m"});
     table.number("step_s", wind.step_s, {0.001, 0.1, "s"});
     table.number("confinement", wind.confinement, {0, 10, ""});

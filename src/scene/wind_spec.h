@@ -74,6 +74,7 @@ struct WindSpec {
     double gust = 0.4;          ///< 0 steady .. 1 violent
     int seed = 7;
     int cells = 1000;
+    int moving_cells = 256; ///< while nothing is local but what a host moves; at most `cells`
     double cell_m = 0.5;
     double step_s = 1.0 / 60.0;
     double confinement = 0.3;

@@ -169,7 +169,8 @@ public:
     void set_colliders(std::span<const Ball> balls, double time_s);
     /// What moves the air beside the scene's own sources, from the next step on, as at `time_s`:
     /// before and after that each is on the straight line of its velocity. In the place of those of
-    /// the call before; none: nothing. While there is one the wind's local window is simulated.
+    /// the call before; none: nothing. While there is one the wind's local window is simulated, a
+    /// small one (wind.moving_cells) where nothing else is local.
     /// Throws Error(kBadInput) for a number that is not finite or out of its range.
     void set_blowers(std::span<const Blower> blowers, double time_s);
     /// Share of the set's blades that stand, 0 to 1, from the next picture on. Throws Error(kUsage)

@@ -41,6 +41,9 @@ public:
     /// False while there is nothing local: then the ambient wind alone answers, and no window is
     /// simulated.
     [[nodiscard]] virtual bool active() const = 0;
+    /// Whether that is nothing but what a host moves near the eye, for which a small window is
+    /// enough.
+    [[nodiscard]] virtual bool only_moving() const { return false; }
     /// Fills `grid.solid` and `grid.solid_velocity` for the grid's present place and time, every
     /// cell of them. Called when the window has moved, and each step. Returns false when it wrote
     /// nothing because both still hold the answer

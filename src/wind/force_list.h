@@ -37,6 +37,8 @@ public:
     [[nodiscard]] bool empty() const {
         return arrows_.empty() && sources_.empty() && moving_.empty();
     }
+    /// Whether all that there is, if anything, is a host's.
+    [[nodiscard]] bool only_moving() const { return arrows_.empty() && sources_.empty(); }
     /// Those that act at `time_s`. Places are relative to `origin` (world x, z, m); radii are at
     /// least `least_m`, so that no force falls between the faces of a grid.
     [[nodiscard]] std::vector<shared::WindForce> at(double time_s, glm::dvec2 origin,

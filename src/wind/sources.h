@@ -54,6 +54,9 @@ public:
     [[nodiscard]] bool active() const override {
         return always_active_ || !forces_.empty() || !solids_.empty();
     }
+    [[nodiscard]] bool only_moving() const override {
+        return !always_active_ && forces_.only_moving() && solids_.empty();
+    }
     bool fill_solids(const FluidGrid& grid, bool moved) override;
     void apply_forces(const FluidGrid& grid) override;
     [[nodiscard]] double loudest_mps() const override;

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <glm/glm.hpp>
 
 namespace sward::wind {
+
+/// Steps of `step_s` that cover a time.
+inline std::int64_t steps_for(double time_s, double step_s) {
+    return static_cast<std::int64_t>(std::ceil(time_s / step_s - 1e-9));
+}
 
 /// Which states a buffer of cells holds, and where they lie: the latest at latest * step_s, the
 /// previous one step before.

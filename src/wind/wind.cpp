@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "wind/wind.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <epoxy/gl.h>
@@ -24,11 +25,6 @@ constexpr double kLayerScale[shared::kWindLayers] = {1, 0.61803398874989};
 constexpr double kLayerWeight[shared::kWindLayers] = {0.8, 0.6};
 constexpr double kBlendShare =
     0.06; // of the window's side: the width over which it passes into the ambient wind
-
-/// Steps of `step_s` that cover a time.
-std::int64_t steps_for(double time_s, double step_s) {
-    return static_cast<std::int64_t>(std::ceil(time_s / step_s - 1e-9));
-}
 
 glm::dvec2 cpu_tap(const shared::WindTap& tap, std::span<const glm::vec4> cells, float latest) {
     const auto fetch = [&](int i) { return cells[static_cast<std::size_t>(i)]; };
@@ -109,7 +105,9 @@ shared::WindField Wind::compose(glm::dvec2 anchor, double time_s, const StateTag
         field.window_cells = window.cells;
         field.window_first = ((window.first_cell % n) + n) % n;
         field.window_share = static_cast<float>(window.share(time_s));
-        field.window_rim = static_cast<float>(kBlendShare * window.cells);
+        const double fade = std::max(window_fade(time_s), 1e-2);
+        // A rim as wide as the window and wider leaves little of it.
+        field.window_rim = static_cast<float>(kBlendShare * window.cells / (fade * fade * fade));
     }
     return field;
 }
@@ -176,40 +174,6 @@ void Wind::step_ambient(double time_s) {
             ambient_->step();
         }
         glTextureBuffer(textures_[0], GL_RGBA32F, ambient_->cells().id());
-    }
-}
-
-void Wind::advance_window(double time_s, glm::dvec2 eye, int most_steps) {
-    if (!inputs_ || !inputs_->active()) {
-        window_.reset();
-        window_back_.reset();
-        return;
-    }
-    const auto ambient_at = [&](glm::dvec2 corner, double when) {
-        return compose(corner, when, ambient_->tag(), StateTag{});
-    };
-    if (!window_) {
-        window_ = std::make_unique<Window>(spec_, mean_);
-        const std::int64_t first = steps_for(time_s_, spec_.step_s);
-        step_ambient(static_cast<double>(first) * spec_.step_s);
-        point_textures();
-        bind();
-        window_->begin(eye_.value_or(eye), first,
-                       ambient_at(window_->corner_for(eye_.value_or(eye)),
-                                  static_cast<double>(first) * spec_.step_s));
-    }
-    const glm::dvec2 from = eye_.value_or(eye);
-    const double span = time_s - time_s_;
-    for (int steps = 0; window_->tag().latest < steps_for(time_s, spec_.step_s) &&
-                        (most_steps == 0 || steps < most_steps);
-         ++steps) {
-        const double when = window_->next_time_s();
-        step_ambient(when);
-        bind();
-        const double share = span > 0 ? glm::clamp((when - time_s_) / span, 0.0, 1.0) : 1.0;
-        const glm::dvec2 there = from + (eye - from) * share;
-        window_->follow(there, ambient_at(window_->corner_for(there), when - spec_.step_s));
-        window_->step(*inputs_, ambient_at(window_->corner(), when));
     }
 }
 

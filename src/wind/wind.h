@@ -74,6 +74,9 @@ public:
         0.5; ///< that a changed wind blows before its gusts are made
     static constexpr double kFade_s =
         1; ///< in which the old gusts fade, and again the new ones come
+    /// That a window goes on when nothing is local any more: what was stirred dies away, and in the
+    /// last second the window fades.
+    static constexpr double kLinger_s = 5;
     static constexpr int kCatchUp =
         4; ///< steps of the new gusts in a call; each costs about as one of the old
 
@@ -81,6 +84,8 @@ private:
     void restart(double time_s);
     void step_ambient(double time_s);
     void advance_window(double time_s, glm::dvec2 eye, int most_steps);
+    [[nodiscard]] bool wants_window(double time_s);
+    [[nodiscard]] double window_fade(double time_s) const;
     [[nodiscard]] shared::WindField compose(glm::dvec2 anchor, double time_s,
                                             const StateTag& ambient, const StateTag& window) const;
     void point_textures();
@@ -101,6 +106,8 @@ private:
     std::unique_ptr<ReadBack> ambient_back_;
     std::unique_ptr<ReadBack> window_back_;
     double time_s_ = 0;
+    double stirred_s_ = 0; ///< when something local was last there
+    int cells_ = 0;        ///< a side of the window, as the inputs ask for it
     std::optional<glm::dvec2> eye_;
     std::uint32_t textures_[2] = {0, 0};
     // A change of the mean wind.

@@ -11,9 +11,9 @@ constexpr double kCalm_mps = 6,
                  kCalmOfMean =
                      2; // air braked above this: eddies behind obstacles, dying gusts stay below
 
-FluidSettings settings_of(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
+FluidSettings settings_of(const scene::WindSpec& spec, int cells, glm::dvec2 mean_mps) {
     FluidSettings settings;
-    settings.cells = spec.cells;
+    settings.cells = cells;
     settings.cell_m = spec.cell_m;
     settings.step_s = spec.step_s;
     settings.confinement = spec.confinement;
@@ -34,10 +34,10 @@ void Window::set_mean(const scene::WindSpec& spec, glm::dvec2 mean_mps) {
     fluid_.set_mean(mean_mps);
 }
 
-Window::Window(const scene::WindSpec& spec, glm::dvec2 mean_mps)
-    : fluid_(settings_of(spec, mean_mps)), calm_mps_(calm_of(spec)) {
+Window::Window(const scene::WindSpec& spec, int cells, glm::dvec2 mean_mps)
+    : fluid_(settings_of(spec, cells, mean_mps)), calm_mps_(calm_of(spec)) {
     tag_.step_s = spec.step_s;
-    tag_.cells = spec.cells;
+    tag_.cells = cells;
     tag_.cell_m = spec.cell_m;
 }
 

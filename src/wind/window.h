@@ -14,7 +14,8 @@ public:
     static constexpr int kMoveCells = 8; ///< it moves when the eye is so far from its centre:
                                          ///< rarely, and by less than the rim's blend
 
-    explicit Window(const scene::WindSpec& spec, glm::dvec2 mean_mps);
+    /// Of `cells` a side, in the place of the spec's.
+    Window(const scene::WindSpec& spec, int cells, glm::dvec2 mean_mps);
     /// Another wind from the next step on; of `spec` speed and gust alone.
     void set_mean(const scene::WindSpec& spec, glm::dvec2 mean_mps);
 

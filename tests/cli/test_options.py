@@ -137,6 +137,29 @@ class Options(CliCase):
             2, ['error: --output: found "--size"'], "render", "scene.toml", "-o", "--size", "64x36"
         )
 
+    def test_a_flag_has_no_value(self):
+        """`--flag=3` and `--flag=false` are nonsense, told as such before anything is read."""
+        for flags, words in (
+            (("--no-wake", "--list-joysticks", "--debug-gl"), ["view", "no.toml"]),
+            (("--wait-in-passes", "--count-steps"), ["render", "no.toml", "-o", "no.png"]),
+            (("--debug-gl",), ["wind", "no.toml", "--time", "1", "-o", "no.exr"]),
+            (("--full",), ["bench", "far"]),
+            (("--quiet", "--verbose", "-q", "--help", "--version"), ["info"]),
+        ):
+            for flag in flags:
+                for value in ("3", "false", ""):
+                    with self.subTest(flag=flag, value=value):
+                        self.refuse(
+                            2,
+                            [f'error: {flag}: found "{value}"', "flag"],
+                            *words,
+                            f"{flag}={value}",
+                        )
+        for words in (["--dry-run=3"], ["verify", "--json=0"]):
+            result = sward_cli.run("texgen", *words)
+            self.assertEqual(result.code, 2)
+            self.assertIn("expected no value", result.err)
+
     def test_aovs(self):
         self.scene()
         self.refuse_render(2, ["--output", "exr"], "--aov", "depth")

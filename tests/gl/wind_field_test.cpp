@@ -3,6 +3,7 @@
 // C++ share.
 #include "base/error.h"
 #include "gl/wind_fixture.h"
+#include "wind/sources.h"
 #include "wind/wind.h"
 
 namespace sward::tests {
@@ -258,6 +259,50 @@ TEST_F(WindTest, ALaggingWindowIsBoundedAndCatchesUp) {
     EXPECT_NEAR(wind.lag_s(1), 1 - 3 / 60.0, 1e-6);
     wind.advance(1, {0, 0});
     EXPECT_LT(wind.lag_s(1), 1e-6);
+}
+
+TEST_F(WindTest, WhatAHostMovesHasASmallWindowThatFades) {
+    scene::Scene scene;
+    scene.wind = spec_of(0, 0, 160);
+    scene.wind.moving_cells = 96;
+    scene.wind.step_s = 0.05;
+    auto inputs =
+        std::make_unique<wind::Sources>(scene, wind::Meshes{}, [](double, double) { return 0.0; });
+    wind::Sources& host = *inputs;
+    Wind wind(scene.wind, 0.1, std::move(inputs));
+    wind.advance(0.1, {0, 0});
+    EXPECT_EQ(wind.window(), nullptr);
+    scene::MovingWindSource rotor;
+    rotor.source.kind = scene::WindSource::Kind::kRotor;
+    rotor.source.strength_mps = 10;
+    rotor.source.radius_m = 3;
+    rotor.source.height_m = 3;
+    host.set_moving({rotor});
+    wind.advance(1, {0, 0});
+    ASSERT_NE(wind.window(), nullptr);
+    EXPECT_EQ(wind.window()->tag().cells, 96);
+    wind.wait();
+    const double blown = wind.at(4, 0, 1).x;
+    EXPECT_GT(blown, 6);
+    const float rim = wind.field({0, 0}, 1).window_rim;
+    scene::WindArrow arrow;
+    arrow.tip = {20, 0};
+    host.set_arrows({arrow}); // something of the scene's: the whole window, begun anew
+    wind.advance(2, {0, 0});
+    EXPECT_EQ(wind.window()->tag().cells, 160);
+    wind.wait();
+    EXPECT_NEAR(wind.at(4, 0, 2).x, blown, 0.1 * blown) << "the small one was large enough";
+    host.set_arrows({});
+    wind.advance(2.1, {0, 0});
+    EXPECT_EQ(wind.window()->tag().cells, 96);
+    host.set_moving({});
+    wind.advance(6, {0, 0});
+    ASSERT_NE(wind.window(), nullptr) << "what was stirred dies away";
+    EXPECT_EQ(wind.field({0, 0}, 6).window_rim, rim);
+    wind.advance(7, {0, 0});
+    EXPECT_GT(wind.field({0, 0}, 7).window_rim, 50 * rim);
+    wind.advance(7.2, {0, 0});
+    EXPECT_EQ(wind.window(), nullptr);
 }
 
 TEST_F(WindTest, RefusesWhatIsNoTime) {

@@ -170,6 +170,53 @@ TEST(Vehicle, GripIsTheSurfaces) {
     EXPECT_GT(wet, grass * 1.2);
 }
 
+TEST(Vehicle, EachWheelHasTheGripOfItsOwnPlace) {
+    // Over a road to z = -40, and there the brake: what is beyond is `left` and `right` of x = 0.
+    const auto braking_mps2 = [](Surface left, Surface right) {
+        Vehicle vehicle(car(), {[](double, double) { return 0.0; },
+                                [=](double x, double z) {
+                                    return z > -40 ? Surface::kRoad : x < 0 ? left : right;
+                                }});
+        for (int i = 0; i < 3000 && vehicle.state().position.z > -42; ++i)
+            vehicle.advance(1.0 / 60, {1, 0, 0});
+        const double speed = vehicle.state().speed_mps();
+        drive(vehicle, 0.5, {0, 0, 1});
+        return (speed - glm::length(vehicle.state().velocity_mps)) / 0.5;
+    };
+    const double road = braking_mps2(Surface::kRoad, Surface::kRoad),
+                 wet = braking_mps2(Surface::kWetGrass, Surface::kWetGrass),
+                 seam = braking_mps2(Surface::kRoad, Surface::kWetGrass);
+    EXPECT_NEAR(seam, (road + wet) / 2, 0.15 * (road - wet));
+    // From a road into sand: what rolls by itself is held back where the sand begins.
+    const DriveLand beach{
+        [](double, double) { return 0.0; },
+        [](double, double z) { return z > -60 ? Surface::kRoad : Surface::kSand; }};
+    Vehicle vehicle(car(), beach);
+    for (int i = 0; i < 3000 && vehicle.state().position.z > -59; ++i)
+        vehicle.advance(1.0 / 60, {1, 0, 0});
+    EXPECT_EQ(vehicle.state().wheels[2].surface, Surface::kRoad);
+    EXPECT_EQ(vehicle.state().wheels[0].surface, Surface::kSand);
+    drive(vehicle, 1, {});
+    const double fast = vehicle.state().speed_mps();
+    drive(vehicle, 1, {});
+    EXPECT_NEAR(fast - vehicle.state().speed_mps(), 0.15 * 9.81, 0.4);
+}
+
+TEST(Surface, IsWhatLiesThere) {
+    using sward::scene::GroundCover;
+    using sward::scene::GroundKind;
+    const auto bare = [](GroundKind kind) { return surface_of({true, 0, false, false, kind}); };
+    EXPECT_EQ(surface_of({}), Surface::kGrass) << "beyond the terrain";
+    EXPECT_EQ(surface_of({true, 0.5}), Surface::kGrass);
+    EXPECT_EQ(surface_of({true, 0.5, true, true}), Surface::kWetGrass);
+    EXPECT_EQ(surface_of({true, 0.01}), Surface::kSoil);
+    EXPECT_EQ(bare(GroundKind::kAsphalt), Surface::kRoad);
+    EXPECT_EQ(bare(GroundKind::kGravel), Surface::kSoil);
+    EXPECT_EQ(bare(GroundKind::kRock), Surface::kSoil);
+    EXPECT_EQ(bare(GroundKind::kSand), Surface::kSand);
+    EXPECT_EQ(bare(GroundKind::kWater), Surface::kSand);
+}
+
 TEST(Vehicle, StandsOnASlopeWithoutCreeping) {
     for (const double yaw : {0.0, 45.0, 90.0}) {
         Vehicle vehicle(car(), {[](double, double z) { return -0.15 * z; }, {}});
@@ -248,7 +295,7 @@ TEST(VehicleSpec, WrongPresetsAreToldWithFileAndKey) {
     EXPECT_NO_THROW(static_cast<void>(parse_vehicle(axles, "v.toml")));
     for (const std::string& bad :
          {std::string("mass_kg = 0\n") + axles, std::string("mass = 3\n") + axles,
-          std::string("grip = [1, 2]\n") + axles, std::string("name = 3\n") + axles,
+          std::string("grip = [1, 2, 1]\n") + axles, std::string("name = 3\n") + axles,
           std::string("= 3\n"), std::string("mass_kg = 900\n"),
           std::string("[front]\nahead_m = nan\n") + axles,
           axles.substr(0, axles.find("driven")) + axles.substr(axles.find("[rear]")),

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The feed's sockets, on this machine's loopback.
+// The feed's sockets, on this machine's loopback, and the names of what lies under the aircraft.
 #include <chrono>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "feed/ground_report.h"
 #include "feed/pose_track.h"
 #include "feed/udp_socket.h"
 #include "feed_packets.h"
@@ -136,6 +137,23 @@ TEST(FeedSocket, NobodyListeningIsNoError) {
     UdpSender sender({"", port}, "--udp-out");
     for (int i = 0; i < 10; ++i)
         EXPECT_TRUE(sender.send(packet_of({})));
+}
+
+TEST(GroundReport, NamesWhatLies) {
+    using scene::GroundKind;
+    const auto of = [](double grass, bool grows = true, GroundKind ground = GroundKind::kSoil) {
+        return class_of({true, grass, grows, false, ground});
+    };
+    EXPECT_EQ(class_of({}), SurfaceClass::kUnknown);
+    EXPECT_EQ(of(0), SurfaceClass::kBare);
+    EXPECT_EQ(of(0.3), SurfaceClass::kSparse);
+    EXPECT_EQ(of(1), SurfaceClass::kGrass);
+    EXPECT_EQ(of(0.4, false), SurfaceClass::kBare) << "most of the texel bears none";
+    EXPECT_EQ(of(0, false, GroundKind::kRock), SurfaceClass(4));
+    EXPECT_EQ(of(0, false, GroundKind::kSand), SurfaceClass(5));
+    EXPECT_EQ(of(0, false, GroundKind::kGravel), SurfaceClass(6));
+    EXPECT_EQ(of(0, false, GroundKind::kAsphalt), SurfaceClass(7));
+    EXPECT_EQ(of(0, false, GroundKind::kWater), SurfaceClass(8));
 }
 
 } // namespace

@@ -401,10 +401,6 @@ TEST(GroundReport, IsThePacketThatIsWrittenDown) {
     EXPECT_EQ(unfed[15], std::byte(2));
     for (const std::size_t i : {24u, 31u, 32u, 39u, 92u, 95u})
         EXPECT_EQ(unfed[i], std::byte(0));
-    EXPECT_EQ(class_of(0), SurfaceClass::kBare);
-    EXPECT_EQ(class_of(0.3), SurfaceClass::kSparse);
-    EXPECT_EQ(class_of(1), SurfaceClass::kGrass);
-    EXPECT_EQ(class_of(std::numeric_limits<double>::quiet_NaN()), SurfaceClass::kUnknown);
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "assets/land_features.h"
 #include "assets/land_mask.h"
 #include "assets_fixture.h"
+#include "scene/ground_cover.h"
 #include "scene/scene.h"
 
 namespace sward::assets {
@@ -132,6 +133,52 @@ TEST_F(Land, ATexelHoldsWhatItsClassSays) {
     EXPECT_GT(differ, 100);
     EXPECT_NEAR(grass / double(mask.density.size()), 0.5, 0.01);
     EXPECT_NEAR(mask.class_shares.at(1), 0.5, 0.01);
+}
+
+TEST_F(Land, WheelsAndProgramsAskWhatLiesAtAPlace) {
+    const auto texel = [](double grass, std::vector<std::pair<scene::LandByte, double>> shares,
+                          scene::DensityMask& mask) {
+        std::array<std::uint8_t, scene::kLandBytes> land{};
+        for (const auto& [byte, share] : shares)
+            land[byte] = static_cast<std::uint8_t>(std::lround(255 * share));
+        mask.density.push_back(static_cast<float>(grass));
+        mask.land.insert(mask.land.end(), land.begin(), land.end());
+    };
+    using scene::GroundCover;
+    scene::DensityMask mask; // four texels of 10 m from x = -20 on
+    mask.width = 4;
+    mask.height = 1;
+    mask.first_m = {-20, -5};
+    mask.size_m = {40, 10};
+    texel(0.9, {}, mask);
+    texel(0.4, {{scene::kLandBare, 0.55}, {scene::kLandAsphalt, 0.55}}, mask);
+    texel(0.7, {{scene::kLandBare, 0.2}, {scene::kLandWater, 0.2}}, mask);
+    texel(0, {{scene::kLandBare, 1}, {scene::kLandGravel, 0.3}, {scene::kLandWater, 0.1}}, mask);
+    mask.outside = {255, 128, 128, 0, 0, 0, 0, 0, 0};
+    const glm::vec3 up(0, 1, 0);
+    const scene::GroundCoverMap map(field(80), mask);
+    const GroundCover grass = map.at({-15, 0}, up), road = map.at({-5, 0}, up),
+                      shore = map.at({5, 0}, up), soil = map.at({15, 0}, up);
+    EXPECT_NEAR(grass.grass, 0.9, kByte);
+    EXPECT_FALSE(grass.bare() || grass.shore);
+    EXPECT_TRUE(road.bare());
+    EXPECT_EQ(road.ground, GroundKind::kAsphalt);
+    EXPECT_FALSE(shore.bare());
+    EXPECT_TRUE(shore.shore);
+    EXPECT_TRUE(soil.bare());
+    EXPECT_EQ(soil.ground, GroundKind::kSoil) << "three fifths of it";
+    EXPECT_EQ(map.at({30, 0}, up).grass, 1) << "what goes on outside";
+    EXPECT_FALSE(map.at({41, 0}, up).known);
+    EXPECT_FALSE(map.at({NAN, 0}, up).known);
+    mask.outside.reset();
+    mask.bounded = true;
+    EXPECT_TRUE(scene::GroundCoverMap(field(80), mask).at({30, 0}, up).bare());
+    mask.bounded = false;
+    EXPECT_EQ(scene::GroundCoverMap(field(80), mask).at({-30, 0}, up).grass, grass.grass)
+        << "its rim goes on";
+    const scene::GroundCoverMap none(field(80), {});
+    EXPECT_EQ(none.at({0, 0}, up).grass, 1);
+    EXPECT_TRUE(none.at({0, 0}, glm::normalize(glm::vec3(2, 1, 0))).bare()) << "too steep";
 }
 
 TEST_F(Land, MemoryIsBounded) {

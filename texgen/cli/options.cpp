@@ -389,14 +389,14 @@ void check_bake(const CLI::App& app, const Options& o) {
 Options parse_options(int argc, char** argv) {
     Options o;
     CLI::App app("Bakes a grass set: blades, layers and slices.", "texgen");
-    app.require_subcommand(0, 1);
-    app.set_version_flag("--version", fmt::format("texgen {}", SWARD_VERSION));
+    app.require_subcommand(0, 1)->set_version_flag("--version", "texgen " SWARD_VERSION);
     declare_bake(app, o.bake);
     for (const Subcommand& command : kSubcommands) {
         CLI::App* sub = app.add_subcommand(command.name, command.help);
         command.declare(*sub, o);
         sub->parse_complete_callback([&o, run = command.run] { o.run = run; });
     }
+    base::refuse_flag_values(app, argc, argv);
     try {
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
