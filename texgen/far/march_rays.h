@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "shared/march.h"
 #include "texgen/far/march_builder.h"
 
 namespace sward::texgen {
