@@ -2,24 +2,17 @@
 #include "wind/fluid.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include "base/error.h"
-#include "base/log.h"
 #include "shared/bindings.h"
 
 namespace sward::wind {
 
 namespace {
-
-constexpr double kRimCells = 16;     // layer at the open rim that is drawn to the ambient wind
-constexpr double kRimRate_per_s = 2; // at its outer edge
-constexpr double kStableDiffusion =
-    0.2; // viscosity * step / cell^2 that explicit diffusion carries in one step
 
 int wrap(int value, int n) {
     return ((value % n) + n) % n;
@@ -50,7 +43,7 @@ void require_room(int cells) {
 
 } // namespace
 
-Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
+Fluid::Fluid(const FluidSettings& settings) : settings_(settings), constants_(wind_grid(settings)) {
     if (settings_.periodic) {
         defines_.emplace_back("PERIODIC");
     }
@@ -58,7 +51,6 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
         defines_.emplace_back("CONFINEMENT");
     }
     require_room(settings_.cells);
-    lay_out_levels();
     const std::size_t cells = static_cast<std::size_t>(settings_.cells) * settings_.cells;
     const shared::WindLevel& last = constants_.levels[constants_.level_count - 1];
     const std::size_t all =
@@ -90,60 +82,6 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings) {
     rim_buffer_ = gl::Buffer(sizeof(shared::WindField));
     const shared::WindField none{};
     rim_buffer_.upload(&none, sizeof(none));
-}
-
-/// Levels halve while their side is even and too long for one workgroup. An open grid leaves a rim
-/// so wide that the solved square halves often enough.
-void Fluid::lay_out_levels() {
-    const int n = settings_.cells;
-    int side = n;
-    if (!settings_.periodic) {
-        const int halvings = std::clamp(
-            static_cast<int>(std::bit_floor(static_cast<unsigned>(std::max(n / 16, 2)))), 2, 64);
-        side = (n - 2) / halvings * halvings;
-    }
-    const int rim = (n - side) / 2;
-    constants_.cells = n;
-    const double cell = settings_.cell_m, step = settings_.step_s;
-    constants_.cell_m = static_cast<float>(cell);
-    constants_.per_m = static_cast<float>(1 / cell);
-    constants_.step_s = static_cast<float>(step);
-    constants_.step_per_m = static_cast<float>(step / cell);
-    double diffusion = settings_.viscosity_m2s * step / (cell * cell);
-    if (diffusion > kStableDiffusion) {
-        base::log_warning(fmt::format("wind.viscosity_m2s: found {}, expected at most {:.4g} for "
-                                      "this cell_m and step_s; that is used",
-                                      settings_.viscosity_m2s,
-                                      kStableDiffusion * cell * cell / step));
-        diffusion = kStableDiffusion;
-    }
-    constants_.confinement = static_cast<float>(settings_.confinement);
-    constants_.diffusion = static_cast<float>(diffusion);
-    constants_.kept = static_cast<float>(1 / (1 + settings_.dissipation_per_s * step));
-    constants_.brake_mps = shared::kWindCeiling_mps;
-    constants_.mean = glm::vec2(settings_.mean_mps);
-    constants_.rim_cells = static_cast<float>(std::min(kRimCells, side / 8.0));
-    constants_.rim_share = static_cast<float>(1 - std::exp(-kRimRate_per_s * step));
-    int level = 0, first = 0;
-    for (;; ++level) {
-        const int row = level == 0 ? n : side;
-        constants_.levels[level] = {{0, 0}, side, row, first, 0, 0, 0};
-        first += row * row;
-        if ((level > 0 && side <= WIND_SOLVE_SIDE / 2) || side % 2 != 0 ||
-            level + 1 == shared::kMaxWindLevels) {
-            break;
-        }
-        side /= 2;
-    }
-    constants_.inner_first = rim;
-    constants_.inner_cells = constants_.levels[0].cells;
-    constants_.level_count = level + 1;
-    if (level == 0 || side > WIND_SOLVE_SIDE) { // no such size leaves Fluid's callers: cells are 16
-                                                // to 4096, tiles powers of two
-        throw base::Error(
-            base::ExitCode::kFailure,
-            fmt::format("wind: found a grid of {} cells, expected one that halves", n));
-    }
 }
 
 gl::Program& Fluid::program(const std::string& name) {

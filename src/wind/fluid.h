@@ -30,6 +30,11 @@ struct FluidSettings {
                     ///< guess: see Fluid::iterations
 };
 
+/// What the passes know of a grid, and the levels of its pressure solve. Levels halve while their
+/// side is even and too long for one workgroup; an open grid leaves a rim so wide that the solved
+/// square halves often enough.
+[[nodiscard]] shared::WindGrid wind_grid(const FluidSettings& settings);
+
 /// W2 in two dimensions on a staggered grid, by compute passes over storage buffers: vorticity
 /// confinement, advection of third order in space, viscosity, dissipation, forces, and a projection
 /// by multigrid with the solid cells in every level. State is bit-equal from run to run: nothing is
@@ -62,7 +67,6 @@ public:
     void reload();
 
 private:
-    void lay_out_levels();
     void upload_constants();
     void bind_faces() const;
     void bind_poisson() const;

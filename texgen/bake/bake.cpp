@@ -41,14 +41,8 @@ grass::FarMedium bake_march(const Preset& preset, const BakeOptions& options, co
     return march;
 }
 
-} // namespace
-
-grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
-    Patch patch;
-    {
-        const StepTimer timer("patch");
-        patch = generate_patch(preset, options.threads);
-    }
+/// What the preset and its blades say of a set, before anything of it is drawn.
+grass::GrassSet described(const Preset& preset, const Patch& patch) {
     grass::GrassSet set;
     set.name = preset.name;
     set.seed = static_cast<std::uint64_t>(preset.seed);
@@ -71,6 +65,18 @@ grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
     // doubles.
     set.canopy_m = std::nextafter(static_cast<float>(canopy_height(patch)), 1e9f);
     set.offset_range_m = std::nextafter(static_cast<float>(offset_range(preset, patch)), 1e9f);
+    return set;
+}
+
+} // namespace
+
+grass::GrassSet bake_set(const Preset& preset, const BakeOptions& options) {
+    Patch patch;
+    {
+        const StepTimer timer("patch");
+        patch = generate_patch(preset, options.threads);
+    }
+    grass::GrassSet set = described(preset, patch);
     const std::vector<double> seen = heights_seen(patch, set.canopy_m, options.threads);
     report_placing(seen, set.canopy_m, static_cast<int>(preset.layers));
     std::size_t images = 0;
