@@ -82,7 +82,7 @@ OVER = {
     "tests/cli/test_texgen.py": 538,
     "tests/cli/test_texgen_export.py": 594,
     "tests/cli/test_texgen_import.py": 469,
-    "tests/cli/test_view.py": 426,
+    "tests/cli/test_view.py": 540,
     "tests/cli/test_view.py:test_a_kept_flight_is_the_same_at_any_rate": 85,
     "tests/gl/blades_test.cpp": 413,
     "tests/gl/blades_test.cpp:blade_surface()": 6,
