@@ -139,22 +139,17 @@ class Options(CliCase):
 
     def test_a_flag_has_no_value(self):
         """`--flag=3` and `--flag=false` are nonsense, told as such before anything is read."""
-        for flags, words in (
-            (("--no-wake", "--list-joysticks", "--debug-gl"), ["view", "no.toml"]),
-            (("--wait-in-passes", "--count-steps"), ["render", "no.toml", "-o", "no.png"]),
-            (("--debug-gl",), ["wind", "no.toml", "--time", "1", "-o", "no.exr"]),
-            (("--full",), ["bench", "far"]),
-            (("--quiet", "--verbose", "-q", "--help", "--version"), ["info"]),
+        for words in (
+            ["view", "no.toml", "--no-wake=3"],
+            ["view", "no.toml", "--list-joysticks=false"],
+            ["render", "no.toml", "-o", "no.png", "--count-steps="],
+            ["bench", "far", "--full=1"],
+            ["info", "-q=3"],
+            ["--version=3"],
         ):
-            for flag in flags:
-                for value in ("3", "false", ""):
-                    with self.subTest(flag=flag, value=value):
-                        self.refuse(
-                            2,
-                            [f'error: {flag}: found "{value}"', "flag"],
-                            *words,
-                            f"{flag}={value}",
-                        )
+            with self.subTest(words):
+                flag, value = words[-1].split("=")
+                self.refuse(2, [f'error: {flag}: found "{value}"', "no value"], *words)
         for words in (["--dry-run=3"], ["verify", "--json=0"]):
             result = sward_cli.run("texgen", *words)
             self.assertEqual(result.code, 2)
