@@ -20,21 +20,22 @@ constexpr double kDrawn =
 constexpr float kAnySpeed = shared::kWindCeiling_mps;
 } // namespace
 
-AmbientTile::AmbientTile(const scene::WindSpec& spec) : AmbientTile(spec, nullptr, 0) {}
+AmbientTile::AmbientTile(const scene::WindSpec& spec)
+    : AmbientTile(spec, std::make_shared<Shared>(), 0) {}
 
 AmbientTile::AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first)
-    : AmbientTile(spec, other.spectrum_, first) {}
+    : AmbientTile(spec, other.shared_, first) {}
 
-AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum,
+AmbientTile::AmbientTile(const scene::WindSpec& spec, std::shared_ptr<Shared> shared,
                          std::int64_t first)
     : seed_(static_cast<std::uint64_t>(spec.seed)),
-      strength_mps_(kGustShare * spec.gust * spec.speed_mps), spectrum_(std::move(spectrum)) {
+      strength_mps_(kGustShare * spec.gust * spec.speed_mps), shared_(std::move(shared)) {
     tag_.step_s = kStep_s;
     tag_.cells = kCells;
     tag_.cell_m = kCell_m;
     if (strength_mps_ > 0) {
-        if (!spectrum_) {
-            spectrum_ =
+        if (!shared_->spectrum) {
+            shared_->spectrum =
                 std::make_shared<const GustSpectrum>(gust_spectrum(kCells, kPeakWaves, seed_));
         }
         initial_ = gl::Buffer(sizeof(glm::vec4) * kCells * kCells);
@@ -62,7 +63,7 @@ void AmbientTile::begin(std::int64_t first) {
     if (strength_mps_ <= 0 || known) {
         return;
     }
-    spectrum_->velocities(phases(first), u_, v_);
+    shared_->spectrum->velocities(phases(first), u_, v_);
     const auto strength = static_cast<float>(strength_mps_);
     for (std::size_t i = 0; i < u_.size(); ++i) {
         u_[i] *= strength;
@@ -81,28 +82,34 @@ void AmbientTile::begin(std::int64_t first) {
     initial_.upload(initial_cells_.data(), initial_cells_.size() * sizeof(glm::vec4));
 }
 
+void AmbientTile::prepare_shared() {
+    if (!totals_.id()) {
+        totals_ = gl::Buffer(4 * sizeof(float));
+    }
+    if (shared_->target.id()) {
+        return;
+    }
+    shared_->target = gl::Buffer(kGustGroups * kCells * kCells * sizeof(glm::vec2));
+    for (std::size_t g = 0; g < kGustGroups; ++g) {
+        const auto& stream = shared_->spectrum->stream[g];
+        shared_->target.upload(stream.data(), stream.size() * sizeof(glm::vec2),
+                               g * stream.size() * sizeof(glm::vec2));
+    }
+    shared_->totals =
+        gl::Program("wind ambient_totals", {"wind/ambient_totals.comp"}, {"PERIODIC"});
+    shared_->force = gl::Program("wind ambient_force", {"wind/ambient_force.comp"}, {"PERIODIC"});
+}
+
 void AmbientTile::step() {
     if (strength_mps_ > 0) {
         if (!fluid_) {
-            if (!target_.id()) {
-                target_ = gl::Buffer(kGustGroups * kCells * kCells * sizeof(glm::vec2));
-                for (std::size_t g = 0; g < kGustGroups; ++g) {
-                    const auto& stream = spectrum_->stream[g];
-                    target_.upload(stream.data(), stream.size() * sizeof(glm::vec2),
-                                   g * stream.size() * sizeof(glm::vec2));
-                }
-                totals_ = gl::Buffer(4 * sizeof(float));
-                totals_program_ =
-                    gl::Program("wind ambient_totals", {"wind/ambient_totals.comp"}, {"PERIODIC"});
-                force_program_ =
-                    gl::Program("wind ambient_force", {"wind/ambient_force.comp"}, {"PERIODIC"});
-            }
+            prepare_shared();
             FluidSettings settings;
             settings.cells = kCells;
             settings.cell_m = kCell_m;
             settings.step_s = kStep_s;
             settings.periodic = true;
-            fluid_ = std::make_unique<Fluid>(settings);
+            fluid_ = std::make_unique<Fluid>(settings, shared_->fluid);
             fluid_->set_state(u_, v_);
         }
         fluid_->step(*this, static_cast<double>(tag_.latest + 1) * kStep_s, {}, kAnySpeed);
@@ -121,12 +128,12 @@ void AmbientTile::apply_forces(const FluidGrid& grid) {
     }
     grid.u->bind_storage(BIND_WIND_U);
     grid.v->bind_storage(BIND_WIND_V);
-    target_.bind_storage(BIND_WIND_TARGET);
+    shared_->target.bind_storage(BIND_WIND_TARGET);
     totals_.bind_storage(BIND_WIND_TOTALS);
-    totals_program_.use();
+    shared_->totals.use();
     glDispatchCompute(1, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    force_program_.use();
+    shared_->force.use();
     glUniform4fv(0, 1, &cosines.x);
     glUniform4fv(1, 1, &sines.x);
     glDispatchCompute((kCells + WIND_GROUP_X - 1) / WIND_GROUP_X,
@@ -134,9 +141,9 @@ void AmbientTile::apply_forces(const FluidGrid& grid) {
 }
 
 void AmbientTile::reload() {
-    if (target_.id()) {
-        totals_program_.reload();
-        force_program_.reload();
+    if (shared_->target.id()) {
+        shared_->totals.reload();
+        shared_->force.reload();
     }
     if (fluid_) {
         fluid_->reload();

@@ -27,8 +27,8 @@ public:
         0.45; // root mean square of a component at gust 1, of the mean speed
 
     explicit AmbientTile(const scene::WindSpec& spec);
-    /// Of the same seed as `other`, whose spectrum it shares, for another wind; begins at state
-    /// `first`.
+    /// Of the same seed as `other`, whose spectrum and programs it shares, for another wind; begins
+    /// at state `first`.
     AmbientTile(const scene::WindSpec& spec, const AmbientTile& other, std::int64_t first);
 
     /// Root mean square of the gusts (m/s a component); 0: there are none, and nothing is ever
@@ -50,18 +50,25 @@ public:
     [[nodiscard]] double loudest_mps() const override { return 0; }
 
 private:
-    AmbientTile(const scene::WindSpec& spec, std::shared_ptr<const GustSpectrum> spectrum,
-                std::int64_t first);
+    /// What does not hang on the wind: all tiles of a seed share it, since building programs would
+    /// hold up the frame in which a wind changes. Made with the first step of any.
+    struct Shared {
+        std::shared_ptr<const GustSpectrum> spectrum; ///< null where there are no gusts
+        std::shared_ptr<FluidPrograms> fluid = std::make_shared<FluidPrograms>();
+        gl::Buffer target; ///< the spectrum's streams
+        gl::Program totals, force;
+    };
+    AmbientTile(const scene::WindSpec& spec, std::shared_ptr<Shared> shared, std::int64_t first);
+    void prepare_shared();
     [[nodiscard]] std::array<double, kGustGroups> phases(std::int64_t state) const;
     std::uint64_t seed_;
     double strength_mps_;
     StateTag tag_;
-    std::shared_ptr<const GustSpectrum> spectrum_; ///< null where there are no gusts
-    std::vector<float> u_, v_;                     ///< the first state
+    std::shared_ptr<Shared> shared_;
+    std::vector<float> u_, v_; ///< the first state
     std::vector<glm::vec4> initial_cells_;
-    gl::Buffer initial_, target_, totals_;
+    gl::Buffer initial_, totals_;
     std::unique_ptr<Fluid> fluid_; ///< made with the first step
-    gl::Program totals_program_, force_program_;
 };
 
 } // namespace sward::wind

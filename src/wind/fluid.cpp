@@ -43,7 +43,9 @@ void require_room(int cells) {
 
 } // namespace
 
-Fluid::Fluid(const FluidSettings& settings) : settings_(settings), constants_(wind_grid(settings)) {
+Fluid::Fluid(const FluidSettings& settings, std::shared_ptr<FluidPrograms> programs)
+    : settings_(settings), constants_(wind_grid(settings)),
+      programs_(programs ? std::move(programs) : std::make_shared<FluidPrograms>()) {
     if (settings_.periodic) {
         defines_.emplace_back("PERIODIC");
     }
@@ -85,25 +87,25 @@ Fluid::Fluid(const FluidSettings& settings) : settings_(settings), constants_(wi
 }
 
 gl::Program& Fluid::program(const std::string& name) {
-    auto found = programs_.find(name);
-    if (found == programs_.end()) {
+    auto found = programs_->find(name);
+    if (found == programs_->end()) {
         const bool correct = name == "poisson_correct";
         std::vector<std::string> defines = defines_;
         if (correct) {
             defines.emplace_back("CORRECT");
         }
-        found =
-            programs_
-                .emplace(name, gl::Program("wind " + name,
-                                           {"wind/" + (correct ? "poisson_relax" : name) + ".comp"},
-                                           defines))
-                .first;
+        found = programs_
+                    ->emplace(name,
+                              gl::Program("wind " + name,
+                                          {"wind/" + (correct ? "poisson_relax" : name) + ".comp"},
+                                          defines))
+                    .first;
     }
     return found->second;
 }
 
 void Fluid::reload() {
-    for (auto& [name, program] : programs_) {
+    for (auto& [name, program] : *programs_) {
         program.reload();
     }
 }

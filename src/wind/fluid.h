@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,14 +36,19 @@ struct FluidSettings {
 /// square halves often enough.
 [[nodiscard]] shared::WindGrid wind_grid(const FluidSettings& settings);
 
+/// Of a fluid, by their names; fluids of the same edge and confinement may share them.
+using FluidPrograms = std::map<std::string, gl::Program>;
+
 /// W2 in two dimensions on a staggered grid, by compute passes over storage buffers: vorticity
 /// confinement, advection of third order in space, viscosity, dissipation, forces, and a projection
 /// by multigrid with the solid cells in every level. State is bit-equal from run to run: nothing is
 /// added in an order that the GPU chooses.
 class Fluid {
 public:
-    /// Throws base::Error(kNoGpu) for shader trouble. Starts calm.
-    explicit Fluid(const FluidSettings& settings);
+    /// Throws base::Error(kNoGpu) for shader trouble. Starts calm. `programs`: another fluid's, so
+    /// that none are built again; null: its own.
+    explicit Fluid(const FluidSettings& settings,
+                   std::shared_ptr<FluidPrograms> programs = nullptr);
 
     /// Replaces all velocities (m/s), `cells` squared each, in storage order; publishes them as the
     /// first state.
@@ -87,7 +93,7 @@ private:
     int steps_ = 0; ///< since the state was set
     shared::WindGrid constants_{};
     std::vector<std::string> defines_;
-    std::map<std::string, gl::Program> programs_;
+    std::shared_ptr<FluidPrograms> programs_;
     gl::Buffer constants_buffer_, rim_buffer_;
     gl::Buffer u_, v_, u_carried_, v_carried_, vorticity_, published_, solid_, solid_velocity_,
         inflow_;
