@@ -399,6 +399,7 @@ Options parse_options(int argc, const char* const* argv) {
     declare_wind(*wind, &o);
     declare_bench(*bench, &o);
     try {
+        base::refuse_flag_values(app, argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         o.help = app.help();
@@ -409,9 +410,8 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         throw usage_error(error, app);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true);
-            std::any_of(words.begin(), words.end(), base::is_option))
-            throw usage_error(CLI::ExtrasError(words), app);
+        if (base::has_unknown_option(app))
+            throw usage_error(CLI::ExtrasError(app.remaining(true)), app);
         throw;
     }
     o.command = view->parsed()     ? Command::kView

@@ -381,7 +381,9 @@ void check_bake(const CLI::App& app, const Options& o) {
          {std::pair{o.bake.preset.empty(), "PRESET"},
           std::pair{o.bake.output.empty() && !o.bake.dry_run, "--output"}})
         if (missing)
-            throw base::Error(base::ExitCode::kUsage, fmt::format("{} is required", name));
+            throw base::Error(
+                base::ExitCode::kUsage,
+                name + std::string(": found nothing, expected one: see `texgen --help`"));
 }
 
 } // namespace
@@ -398,6 +400,7 @@ Options parse_options(int argc, char** argv) {
         sub->parse_complete_callback([&o, run = command.run] { o.run = run; });
     }
     try {
+        base::refuse_flag_values(app, argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
         o.help = app.help();
@@ -408,8 +411,8 @@ Options parse_options(int argc, char** argv) {
     } catch (const CLI::ParseError& problem) {
         throw usage_error(app, problem);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true); std::ranges::any_of(words, base::is_option))
-            throw usage_error(app, CLI::ExtrasError(words));
+        if (base::has_unknown_option(app))
+            throw usage_error(app, CLI::ExtrasError(app.remaining(true)));
         throw;
     }
     check_bake(app, o);
