@@ -20,6 +20,7 @@ if(NOT SWARD_CORE_ONLY)
     pkg_check_modules(blosc REQUIRED IMPORTED_TARGET blosc)
     find_path(STB_INCLUDE stb/stb_easy_font.h REQUIRED) # a header alone: the letters of texgen's preview
     find_package(GDAL REQUIRED)
+    find_package(SQLite3 REQUIRED)
     pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
     pkg_check_modules(bullet REQUIRED IMPORTED_TARGET bullet)
     pkg_check_modules(imgui REQUIRED IMPORTED_TARGET imgui)

@@ -6,7 +6,7 @@ packages=(
     g++ cmake ninja-build pkg-config ccache
     libglfw3-dev libglm-dev libtinygltf-dev libstb-dev libopenvdb-dev libboost-dev libopenimageio-dev libepoxy-dev
     libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri libglx-mesa0 libimgui-dev libbullet-dev libcli11-dev libfmt-dev
-    nlohmann-json3-dev libtomlplusplus-dev libgdal-dev libzstd-dev libssl-dev
+    nlohmann-json3-dev libtomlplusplus-dev libgdal-dev libsqlite3-dev libssl-dev libzstd-dev
     libgtest-dev libtbb-dev libimath-dev libblosc-dev zlib1g-dev
     python3 python3-venv ca-certificates xvfb xauth
 )

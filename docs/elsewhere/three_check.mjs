@@ -5,13 +5,14 @@
 //   CHROMIUM=/usr/bin/chromium node three_check.mjs OUT_FOLDER MODULES_FOLDER PICTURES_FOLDER [R G B]
 // R G B: linear means of sward render's EXR from above (three_reference.py). Ends with 1 where one of them is off by more than 3 %.
 import { createServer } from 'node:http';
-import { readFile } from 'node:fs/promises';
+import { mkdir, readFile } from 'node:fs/promises';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const [out, modules, pictures, ...expected] = process.argv.slice(2);
 const puppeteer = createRequire(path.resolve(modules, 'x.js'))('puppeteer-core');
+await mkdir(pictures, { recursive: true });
 const here = path.dirname(fileURLToPath(import.meta.url));
 const kinds = { '.html': 'text/html', '.js': 'text/javascript', '.json': 'application/json', '.wasm': 'application/wasm' };
 const server = createServer(async (request, response) => {

@@ -383,9 +383,8 @@ Options parse_options(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         throw usage_error(error, app);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true);
-            std::any_of(words.begin(), words.end(), base::is_option))
-            throw usage_error(CLI::ExtrasError(words), app);
+        if (base::has_unknown_option(app))
+            throw usage_error(CLI::ExtrasError(app.remaining(true)), app);
         throw;
     }
     o.command = view->parsed()     ? Command::kView

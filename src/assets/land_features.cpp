@@ -13,6 +13,7 @@
 
 #include "assets/gdal_scope.h"
 #include "assets/placement.h"
+#include "assets/sqlite_budget.h"
 #include "base/error.h"
 
 namespace sward::assets {
@@ -96,6 +97,14 @@ void refuse_large(const fs::path& path) {
                                 fmt::format("at most {}", kMostBytes));
 }
 
+/// A database whose queries never end.
+void refuse_spent(const SqliteBudget& budget, const fs::path& path) {
+    if (budget.spent())
+        throw base::input_error(ExitCode::kOverLimit, path, 0, "database",
+                                "queries of more than 50 million steps",
+                                "tables of areas or lines");
+}
+
 OGRLayerH layer_of(GDALDatasetH dataset, const scene::LandFeature& feature) {
     const OGRLayerH layer = feature.layer.empty()
                                 ? GDALDatasetGetLayer(dataset, 0)
@@ -123,12 +132,14 @@ void warp(const FrameWarp& to_frame, const fs::path& path, std::vector<LandShape
 
 LandShapes read_features(const scene::LandFeature& feature, const scene::Heightfield& ground) {
     GdalScope scope;
+    const SqliteBudget budget;
     refuse_large(feature.file);
     if (!ground.origin)
         throw base::input_error(ExitCode::kBadInput, feature.file, 0, "terrain",
                                 "no place on Earth", "elevation with a CRS under areas and lines");
     static constexpr std::array<const char*, 3> kDrivers = {"GeoJSON", "GPKG", nullptr};
     const Dataset dataset = scope.open_features(feature.file, kDrivers.data());
+    refuse_spent(budget, feature.file);
     if (!dataset)
         throw base::input_error(ExitCode::kBadInput, feature.file, 0, "cannot decode",
                                 scope.error("another format"), "GeoJSON or GeoPackage");
@@ -139,13 +150,21 @@ LandShapes read_features(const scene::LandFeature& feature, const scene::Heightf
                                 "\"" + base::printable(feature.where) + "\" (" +
                                     scope.error("refused") + ")",
                                 "a condition on the file's attributes");
-    const FrameWarp to_frame =
-        warp_to_frame(OGR_L_GetSpatialRef(layer), *ground.origin, feature.file);
+    const OGRSpatialReferenceH crs =
+        OGR_L_GetSpatialRef(layer); // asks what the layer's columns are
+    refuse_spent(budget, feature.file);
+    const FrameWarp to_frame = warp_to_frame(crs, *ground.origin, feature.file);
     LandShapes shapes;
     Collector collector(feature, shapes);
+    static_cast<void>(scope.error("")); // what opening said and went on from
     OGR_L_ResetReading(layer);
     while (const Feature next{OGR_L_GetNextFeature(layer)})
         collector.add(OGR_F_GetGeometryRef(static_cast<OGRFeatureH>(next.get())));
+    refuse_spent(budget, feature.file);
+    // The last feature and one that cannot be read end the loop alike.
+    if (const std::string failure = scope.error(""); !failure.empty())
+        throw base::input_error(ExitCode::kBadInput, feature.file, 0, "cannot decode", failure,
+                                "whole features");
     if (shapes.lines.empty() && shapes.areas.empty())
         throw base::input_error(ExitCode::kBadInput, feature.file, 0, "geometry",
                                 feature.where.empty() ? "none" : "none that \"where\" lets through",

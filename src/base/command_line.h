@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,12 @@ template<class App>
     const std::string nearest =
         word.starts_with("--") ? nearest_name(word.substr(0, word.find('=')), known) : "";
     return nearest.empty() ? "" : ", perhaps " + nearest;
+}
+
+/// Words among what nothing took that begin as an option does.
+template<class App> [[nodiscard]] bool has_unknown_option(const App& app) {
+    const std::vector<std::string> words = app.remaining(true);
+    return std::any_of(words.begin(), words.end(), is_option);
 }
 
 /// A flag has no value: CLI11 takes `--flag=3` for three of it, and `--flag=false` for none. Of the

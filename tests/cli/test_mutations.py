@@ -17,10 +17,13 @@ import numpy
 import OpenEXR
 
 import sward_cli
+from geopackage import geopackage
 from geotiff import geotiff
+from small_files import CHANNELS, CONTROLS, ENDLESS, MATRICES, RECORD, triangle
 from sward_cli import CliCase, TINY_PRESET
 from test_files import png
-from test_texgen_import import Grid, posts, write_vdb
+import test_texgen_import
+from test_texgen_import import Grid, meta, posts, write_vdb
 
 EACH = int(os.environ.get("SWARD_MUTATIONS", 2))
 MOST_CPU_S, MOST_MIB = 10, 1024
@@ -64,54 +67,22 @@ def mutate(data, rng):
     return bytes(out)
 
 
-def triangle():
-    """A mesh of one triangle as .glb."""
-    text = json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "scenes": [{"nodes": [0]}],
-            "scene": 0,
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-            "accessors": [
-                {
-                    "bufferView": 0,
-                    "componentType": 5126,
-                    "count": 3,
-                    "type": "VEC3",
-                    "min": [0, 0, 0],
-                    "max": [1, 1, 1],
-                },
-                {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-            ],
-            "bufferViews": [
-                {"buffer": 0, "byteLength": 36},
-                {"buffer": 0, "byteOffset": 36, "byteLength": 6},
-            ],
-            "buffers": [{"byteLength": 44}],
-        }
-    ).encode()
-    text += b" " * (-len(text) % 4)
-    data = struct.pack("<9f3H2x", 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 2)
-    chunks = (
-        struct.pack("<II", len(text), 0x4E4F534A)
-        + text
-        + struct.pack("<II", len(data), 0x004E4942)
-        + data
-    )
-    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
-
-
 class Mutations(CliCase):
     def setUp(self):
         super().setUp()
         self.scene()
+        self.env = None
 
     def held(self, name, program, *arguments, output=None):
         """Runs a program on a file that may be anything. A refusal names what it was given and
         leaves the folder as it was."""
         before = sward_cli.snapshot(self.dir)
-        result = sward_cli.run(program, *arguments, cwd=self.dir)
+        result = sward_cli.run(program, *arguments, cwd=self.dir, env=self.env)
+        if (
+            result.code == 6 and arguments[0] == "view"
+        ):  # read, and a display is all that is missing
+            self.assertIn("display", result.err)
+            return
         self.assertIn(result.code, (0, 3, 4, 5), result.err)
         self.assertLess(result.cpu_s, MOST_CPU_S)
         self.assertLess(result.mib, MOST_MIB)
@@ -276,6 +247,71 @@ class Mutations(CliCase):
                     output="new",
                 )
 
+    def test_land(self):
+        """Areas and lines, as text and as a database."""
+        geotiff(self.dir / "h.tif", 17, 17, lambda i, j: 100 + i, "f", **PLACE)
+        road = [(500020, 5499850), (500100, 5499900), (500150, 5499950)]
+        geopackage(self.dir / "r.gpkg", [(road, "road")] * 3)
+        feature = {"type": "Feature", "properties": {"kind": "road"}}
+        feature["geometry"] = {
+            "type": "LineString",
+            "coordinates": [[9.0002, 49.65], [9.001, 49.651]],
+        }
+        text = {"type": "FeatureCollection", "features": [feature] * 3}
+        (self.dir / "r.geojson").write_text(json.dumps(text))
+        for name in ("r.geojson", "r.gpkg"):
+            self.terrain(
+                "h.tif",
+                f"[[terrain.line]]\nfile = '{name}'\nwidth_m = 6\nwhere = \"kind = 'road'\"\n"
+                "ground = 'asphalt'\n",
+            )
+            self.assert_done(sward_cli.run(*self.INFO[:-1], cwd=self.dir))
+            self.each(name, (self.dir / name).read_bytes(), self.INFO)
+        # A table that is a view without an end, and pages that break after the first features.
+        geopackage(self.dir / "r.gpkg", [], table=ENDLESS)
+        self.refuse(4, ["r.gpkg: database"], *self.INFO[1:-1])
+        geopackage(self.dir / "r.gpkg", [(road * 30, "road")] * 300)
+        whole = (self.dir / "r.gpkg").read_bytes()
+        half = len(whole) // 2
+        (self.dir / "r.gpkg").write_bytes(whole[:half] + b"\xff" * 100000 + whole[half + 100000 :])
+        self.refuse(3, ["r.gpkg: cannot decode"], *self.INFO[1:-1])
+
+    def test_machines(self):
+        """What drives, what flies, and what steers it: read before a window is asked for."""
+        for name, option in (("car", "--drive"), ("trainer", "--fly"), ("helicopter", "--fly")):
+            folder = "vehicles" if option == "--drive" else "aircraft"
+            whole = (sward_cli.SOURCE / folder / f"{name}.toml").read_bytes()
+            self.each(
+                f"{name}.toml",
+                whole,
+                ("sward", "view", "scene.toml", option, f"./{name}.toml", None),
+            )
+        self.env = sward_cli.environment(XDG_CONFIG_HOME=str(self.dir))
+        (self.dir / "sward").mkdir()
+        self.each("sward/controls.toml", CONTROLS, ("sward", "view", "--list-joysticks", None))
+
+    def test_flights(self):
+        """Records, channels, a host's camera and what lay pressed: of render."""
+        render = ("sward", "render", "scene.toml", "--size", "2x2", "--density", "0", "-q", "-o")
+        for name, option, whole in (
+            ("f.rec", "--replay", RECORD),
+            ("c.toml", "--channels", CHANNELS),
+            ("m.json", "--camera-matrices", MATRICES),
+        ):
+            command = tuple(
+                word for word in render if option != "--channels" or word not in ("--size", "2x2")
+            )
+            if option == "--replay":
+                command = (*command[:-1], "--frames", "0:0", "-o")
+                output = "o%d.png"
+            else:
+                output = "o.png"
+            made = {"--replay": "o0.png", "--channels": "o-a.png"}.get(option, "o.png")
+            (self.dir / name).write_bytes(whole)
+            self.assert_done(sward_cli.run(*command, output, option, name, cwd=self.dir))
+            (self.dir / made).unlink()
+            self.each(name, whole, (*command, output, option, name, made))
+
     def test_stacks(self):
         (self.dir / "stack").mkdir()
         picture = png(32, 32, b"".join(b"\0" + bytes(range(0, 256, 8)) for _ in range(32)))
@@ -287,6 +323,43 @@ class Mutations(CliCase):
         seam = ("texgen", "seam", "stack", "-o", "new", "-q", "new")
         for name, whole in (("a.png", picture), ("b.png", picture), ("stack.json", described)):
             self.each(f"stack/{name}", whole, seam, of="stack")
+
+
+class Metadata(test_texgen_import.ImportCase):
+    def test_light_of_the_metadata(self):
+        """Taken where it is whole; refused by name where a term is missing, of another type or out
+        of its range; passed over with a warning where its version is another."""
+        terms = {"kd": 0.5, "pd": 2.0, "ks": 0.25, "ps": 40.0, "translucency": 0.125}
+
+        def write(version=1, **changes):
+            entries = [meta("light_version", "int32", struct.pack("<i", version))]
+            for key, value in {**terms, **changes}.items():
+                if value is not None:
+                    kind = "float" if isinstance(value, float) else "double"
+                    value = struct.pack("<f" if kind == "float" else "<d", value)
+                    entries.append(meta("light_" + key, kind, value))
+            write_vdb(self.dir / "l.vdb", Grid("density", posts(), entries=entries))
+
+        write()
+        self.import_set("l.vdb", "set")
+        look = json.loads((self.dir / "set/set.json").read_text())["species"][0]["look"]
+        self.assertEqual({key: look[key] for key in terms}, terms)
+        for key, value in (
+            ("kd", None),
+            ("kd", -1.0),
+            ("pd", 0.0),
+            ("ks", float("nan")),
+            ("ps", float("inf")),
+            ("translucency", 1e30),
+            ("translucency", 1),
+        ):
+            with self.subTest(key=key, value=value):
+                write(**{key: value})
+                self.refuse_texgen(3, ["l.vdb", "light_" + key], "import", "l.vdb", "-o", "bad")
+        write(version=2, kd=float("nan"))
+        result = self.texgen("inspect", "l.vdb")
+        self.assert_done(result)
+        self.assertIn("light_version 2", result.err)
 
 
 if __name__ == "__main__":

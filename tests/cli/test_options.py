@@ -116,6 +116,10 @@ class Options(CliCase):
         self.refuse_render(2, ["--time", "2 times"], "--time", "1", "--time", "1")
         self.refuse_render(2, ["--camera", "--path"], "--camera", "road", "--path", "roll")
         self.refuse_render(2, ["\\n"], "two\nlines")
+        for word in ("--debug-gl=3", "--count-steps=no", "-q=1", "--version=1", "--help="):
+            name, value = word.split("=")
+            self.refuse_render(2, [f'error: {name}: found "{value}", expected no value'], word)
+        self.refuse(2, ["--list-joysticks: found"], "view", "--list-joysticks=5")
 
     def test_a_wrong_option_is_blamed(self):
         self.scene()
@@ -194,6 +198,23 @@ class Options(CliCase):
         first = (self.dir / "out.png").read_bytes()
         self.assert_done(self.render("--time", "1.5"))
         self.assertEqual(first, (self.dir / "out.png").read_bytes())
+
+    def test_texgen_flags_and_sizes(self):
+        (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)
+        bake = ("tiny.toml", "-o", "set")
+        for command, word in (
+            *((bake, word) for word in ("--dry-run=no", "--no-wrap=", "-q=3", "--version=1")),
+            (("import", "a.vdb", "-o", "set"), "--no-preview=no"),
+            (("verify", "set"), "--json=1"),
+        ):
+            name, value = word.split("=")
+            said = f'error: {name}: found "{value}", expected no value'
+            self.refuse(2, [said], *command, word, program="texgen")
+        for value, said in (
+            ("", "--size: found nothing, expected N"),
+            ("33", "--size 33: texture.size"),
+        ):
+            self.refuse(2, [said], *bake, f"--size={value}", program="texgen")
 
     def test_texgen_numbers(self):
         (self.dir / "tiny.toml").write_text(sward_cli.TINY_PRESET)

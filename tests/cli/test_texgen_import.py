@@ -193,19 +193,18 @@ class Import(ImportCase):
 
     def test_own_volume_covers_and_colours_as_its_set(self):
         """Within a point and 2 %, at every elevation and in the mean over them, where blades share
-        voxels and a few are of another colour."""
+        voxels, a few are of another colour, and none shines as plain grass does."""
         preset = sward_cli.TINY_PRESET.replace(
             "density_per_m2 = 300.0", "density_per_m2 = 1500.0"
         ).replace("size = 64", "size = 128")
-        preset = preset.replace("far_rays = 1024", "far_rays = 16384").replace(
-            "levels = 2", "levels = 1"
-        )
-        for own, plain in (
-            ("ks = 0.05", "ks = 0.06"),
-            ("ps = 16.0", "ps = 18.0"),
-            ("translucency = 0.35", "translucency = 0.45"),
+        for tiny, fur in (
+            ("far_rays = 1024", "far_rays = 16384"),
+            ("levels = 2", "levels = 1"),
+            ("ks = 0.05", "ks = 0.09"),
+            ("ps = 16.0", "ps = 30.0"),
+            ("translucency = 0.35", "translucency = 0.2"),
         ):
-            preset = preset.replace(own, plain)  # what a volume does not carry
+            preset = preset.replace(tiny, fur)  # far from plain grass's
         preset += "[[species]]\nname = 'green'\nshare = 5\n[[species]]\nname = 'red'\nshare = 1\n[species.colour]\nroot = [0.5, 0.02, 0.02]\n"
         preset += "tip = [0.7, 0.03, 0.02]\n"
         (self.dir / "two.toml").write_text(preset)
@@ -236,6 +235,8 @@ class Import(ImportCase):
         look = json.loads((self.dir / "back/set.json").read_text())["species"][0]["look"]
         self.assertGreater(light[1][0][0], light[1][0][1], "red blades are seen")
         self.assertLess(look["root"][0], 0.3, "though most blades are of another colour")
+        for term, value in (("ks", 0.09), ("ps", 30), ("translucency", 0.2)):
+            self.assertAlmostEqual(look[term], value, delta=1e-4)
 
     def test_rounding_is_told_once(self):
         values = posts()

@@ -60,6 +60,7 @@ HOUSES = {
     "OpenImageIO/": {"assets"},
     "gdal": {"assets"},
     "ogr_": {"assets"},
+    "sqlite3": {"assets"},
     "GLFW/": {"app"},
     "imgui": {"app"},
     "Bullet": {"drive"},

@@ -14,6 +14,7 @@
 #include "grass/set_files.h"
 #include "grass_fixture.h"
 #include "shared/shading.h"
+#include "texgen/patch/canopy.h"
 #include "texgen/vdb/vdb_file.h"
 #include "texgen/vdb/vdb_writer.h"
 #include "texgen/vdb/volume.h"
@@ -207,6 +208,28 @@ TEST(VdbFile, RefusesWhatIsCutOffOrNoVolume) {
     });
     EXPECT_EQ(code, ExitCode::kBadInput);
     EXPECT_NE(text.find("voxel (7, 0, 0)"), std::string::npos) << text;
+}
+
+TEST(Volume, CarriesTheMeanLightOfItsSpecies) {
+    grass::GrassSet set = small_set();
+    grass::Species other = set.species.front();
+    set.species.front().look.gloss = {1, 2, 0.25f, 8};
+    other.look.gloss = {3, 4, 0.75f, 24};
+    set.species.front().look.translucency = 0;
+    other.look.translucency = 1;
+    set.species = {set.species.front(), other};
+    set.blades.resize(2);
+    set.variant_begin = {0, 2};
+    set.blades[1] = set.blades[0]; // the same blade once of each
+    set.blades[1].shape.w = set.blades[0].shape.w + 1;
+    ASSERT_EQ(species_of(set.blades[1]), species_of(set.blades[0]) + 1);
+    const std::vector<std::byte> bytes = encode_volume(set);
+    const Species light = VdbFile(bytes, "l.vdb").read_volume({}).light;
+    EXPECT_NEAR(light.kd, 2, 1e-5);
+    EXPECT_NEAR(light.pd, 3, 1e-5);
+    EXPECT_NEAR(light.ks, 0.5, 1e-5);
+    EXPECT_NEAR(light.ps, 16, 1e-4);
+    EXPECT_NEAR(light.translucency, 0.5, 1e-5);
 }
 
 TEST(VdbFile, ZUpIsTurnedAndScaled) {

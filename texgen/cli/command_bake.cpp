@@ -39,19 +39,21 @@ std::string shown(const BakeCommandOptions& o) {
 }
 
 /// A smaller --size has room for fewer levels; who asked for levels as well is told instead.
-void lower_levels(Preset& preset, const BakeCommandOptions& o) {
+/// Returns what there is to say of it.
+std::string lower_levels(Preset& preset, const BakeCommandOptions& o) {
     const auto given = [&](const char* key) {
         return std::ranges::find(o.overrides, key, &Override::key) != o.overrides.end();
     };
     if (!given("texture.size") || given("texture.levels"))
-        return;
+        return {};
     const std::int64_t wanted = preset.levels;
     while (preset.levels > 1 && preset.size >> (preset.levels - 1) < kLeastLevelTexels)
         --preset.levels;
-    if (preset.levels < wanted)
-        base::log_info(fmt::format("--size {}: {} levels instead of {}, the last of {} texels",
-                                   preset.size, preset.levels, wanted,
-                                   preset.size >> (preset.levels - 1)));
+    return preset.levels == wanted
+               ? ""
+               : fmt::format("--size {}: {} levels instead of {}, the last of {} texels",
+                             preset.size, preset.levels, wanted,
+                             preset.size >> (preset.levels - 1));
 }
 
 Preset preset_of(const BakeCommandOptions& o) {
@@ -61,7 +63,7 @@ Preset preset_of(const BakeCommandOptions& o) {
         override_preset(preset, change.option, change.key, change.value);
     preset.wrap = o.wrap;
     preset.height_map = o.height_map.value_or(preset.height_map);
-    lower_levels(preset, o);
+    const std::string fewer_levels = lower_levels(preset, o);
     try {
         check_preset(preset, path);
     } catch (const base::Error& error) { // the file was right by itself: it is the options
@@ -73,6 +75,8 @@ Preset preset_of(const BakeCommandOptions& o) {
                                                                     : error.code(),
                           shown(o) + ": " + text);
     }
+    if (!fewer_levels.empty())
+        base::log_info(fewer_levels);
     return preset;
 }
 

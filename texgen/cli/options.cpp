@@ -377,11 +377,11 @@ void check_bake(const CLI::App& app, const Options& o) {
     }
     if (o.bake.list)
         return;
-    for (const auto& [missing, name] :
-         {std::pair{o.bake.preset.empty(), "PRESET"},
-          std::pair{o.bake.output.empty() && !o.bake.dry_run, "--output"}})
-        if (missing)
-            throw base::Error(base::ExitCode::kUsage, fmt::format("{} is required", name));
+    const bool nowhere = o.bake.output.empty() && !o.bake.dry_run;
+    if (o.bake.preset.empty() || nowhere)
+        throw base::Error(base::ExitCode::kUsage,
+                          fmt::format("{}: found nothing, expected one: see `texgen --help`",
+                                      o.bake.preset.empty() ? "PRESET" : "--output"));
 }
 
 } // namespace
@@ -408,8 +408,8 @@ Options parse_options(int argc, char** argv) {
     } catch (const CLI::ParseError& problem) {
         throw usage_error(app, problem);
     } catch (const base::Error&) { // a value, perhaps of an option that there is not
-        if (const auto words = app.remaining(true); std::ranges::any_of(words, base::is_option))
-            throw usage_error(app, CLI::ExtrasError(words));
+        if (base::has_unknown_option(app))
+            throw usage_error(app, CLI::ExtrasError(app.remaining(true)));
         throw;
     }
     check_bake(app, o);

@@ -29,17 +29,18 @@ base::Error usage_error(const CLI::App& app, const CLI::ParseError& problem) {
                         base::printable(*option), command, base::perhaps_option(at, *option)));
     if (!extras.empty())
         return usage(command, extras.front(), fmt::format("what `{} --help` lists", command));
-    for (const CLI::Option* each : at.get_options())
+    const std::string said = problem.what();
+    for (const CLI::Option* each : at.get_options()) {
+        const std::string name = each->get_name();
         if (each->get_expected_max() == 1 && each->count() > 1)
             return base::Error(
                 base::ExitCode::kUsage,
-                fmt::format("{}: found {} times, expected once", each->get_name(), each->count()));
-    if (dynamic_cast<const CLI::ArgumentMismatch*>(
-            &problem)) // "--size=": CLI11 speaks of a missing N
-        return base::Error(
-            base::ExitCode::kUsage,
-            fmt::format("{}: expected a value", base::printable(problem.what(), 200)));
-    return base::Error(base::ExitCode::kUsage, base::printable(problem.what(), 200));
+                fmt::format("{}: found {} times, expected once", name, each->count()));
+        if (said == name + " is required" || said.starts_with(name + ": 1 required"))
+            return base::Error(base::ExitCode::kUsage, fmt::format("{}: found nothing, expected {}",
+                                                                   name, each->get_type_name()));
+    }
+    return base::Error(base::ExitCode::kUsage, base::printable(said, 200));
 }
 
 } // namespace sward::texgen

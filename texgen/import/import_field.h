@@ -48,7 +48,11 @@ public:
     [[nodiscard]] std::size_t size() const { return volume_.at.size(); }
     [[nodiscard]] bool blades() const { return blades_; }
     [[nodiscard]] double side() const { return volume_.cells.x * volume_.voxel_m; }
-    [[nodiscard]] double canopy() const { return volume_.cells.y * volume_.voxel_m; }
+    [[nodiscard]] double box_top() const { return volume_.cells.y * volume_.voxel_m; }
+    /// Where the canopy ends, less than a voxel from the box's top.
+    [[nodiscard]] double canopy() const {
+        return volume_.canopy_m > 0 ? volume_.canopy_m : box_top();
+    }
 
     [[nodiscard]] std::uint32_t strand(std::size_t i) const;
     [[nodiscard]] int rank8(std::size_t i) const; ///< 0..255

@@ -283,7 +283,8 @@ std::vector<Task> plan_tasks(const VoxelField& field, const grass::GrassSet& set
     };
     for (int i = 0; i < out.layer_count; ++i) {
         const auto at = static_cast<std::size_t>(i);
-        const double top = i + 1 == out.layer_count ? field.canopy() : out.layer_edges[at + 1];
+        const double top = i + 1 == out.layer_count ? std::max(field.canopy(), field.box_top())
+                                                    : out.layer_edges[at + 1];
         tasks.push_back({{Family::kLayer, out.layer_edges[at], top, size, size, texel, texel, side},
                          &out.layers,
                          shared::layer_index(0, i, out.layer_count, shared::kPlaneId),

@@ -119,8 +119,8 @@ std::vector<Line> find_lines(std::vector<Bin*>& bins, double all) {
 
 /// The look of a line, with how far single voxels are from it: `error` is the mean square of their
 /// value's relative distance.
-shared::GrassAppearance look_of(const Line& line, double error) {
-    shared::GrassAppearance look = appearance(Species{});
+shared::GrassAppearance look_of(const Line& line, double error, const Species& light) {
+    shared::GrassAppearance look = appearance(light);
     // blade_albedo scales by 1 + variation * 0.7 * value, value even over one: its standard
     // deviation is 0.7 / sqrt 12.
     const double variation = std::clamp(std::sqrt(error) / (0.7 / std::sqrt(12.0)), 0.0, 1.0);
@@ -136,7 +136,7 @@ shared::GrassAppearance look_of(const Line& line, double error) {
 Palette palette_of(const VoxelField& field) {
     Palette palette;
     if (!field.coloured()) {
-        palette.species.push_back({"imported", "blade", 1, appearance(Species{})});
+        palette.species.push_back({"imported", "blade", 1, appearance(field.volume().light)});
         return palette;
     }
     std::vector<Bin> table(static_cast<std::size_t>(kPlaces) * kSteps * kSteps * kSteps);
@@ -176,7 +176,8 @@ Palette palette_of(const VoxelField& field) {
         number[order[n]] = static_cast<std::uint8_t>(n);
         palette.species.push_back(
             {n == 0 ? std::string("imported") : fmt::format("imported{}", n + 1), "blade",
-             static_cast<float>(line.w / all), look_of(line, errors[order[n]] / line.w)});
+             static_cast<float>(line.w / all),
+             look_of(line, errors[order[n]] / line.w, field.volume().light)});
     }
     if (order.size() > 1) {
         palette.of_voxel.reserve(field.size());

@@ -17,7 +17,7 @@ struct Palette {
 };
 
 /// Groups of voxels whose colours lie along one line from root to tip: as many as it takes for none
-/// to be far from its own. The terms of light are a meadow's.
+/// to be far from its own. The terms of light are the volume's.
 [[nodiscard]] Palette palette_of(const VoxelField& field);
 
 } // namespace sward::texgen

@@ -172,21 +172,21 @@ Canopy volume_canopy(const VoxelField& field, const shared::GrassAppearance& loo
     canopy.looks = {look};
     canopy.bent = [&field, &look](double lean) {
         const auto bent = std::make_shared<const BentVoxels>(field, lean);
-        return std::vector<Caster>{
-            [&field, &look, bent](const SampleRay& ray,
-                                  std::uint64_t number) -> std::optional<GrassHit> {
-                const std::int64_t n = bent->meet(ray, base::hash_unit(17, 0, number));
-                if (n < 0)
-                    return std::nullopt;
-                const auto i = static_cast<std::size_t>(n);
-                const shared::vec2 id((static_cast<float>(field.rank8(i)) + 0.5f) / 256,
-                                      (static_cast<float>(field.seed8(i)) + 0.5f) / 256);
-                const glm::vec3 albedo =
-                    field.coloured() ? field.colour(i)
-                                     : glm::vec3(shared::blade_albedo(look, id, field.along(i), 0));
-                return GrassHit{albedo, bent->tangent(i), field.centre(i).y / field.canopy(),
-                                field.along(i), 0};
-            }};
+        return std::vector<Caster>{[&field, &look,
+                                    bent](const SampleRay& ray,
+                                          std::uint64_t number) -> std::optional<GrassHit> {
+            const std::int64_t n = bent->meet(ray, base::hash_unit(17, 0, number));
+            if (n < 0)
+                return std::nullopt;
+            const auto i = static_cast<std::size_t>(n);
+            const shared::vec2 id((static_cast<float>(field.rank8(i)) + 0.5f) / 256,
+                                  (static_cast<float>(field.seed8(i)) + 0.5f) / 256);
+            const glm::vec3 albedo =
+                field.coloured() ? field.colour(i)
+                                 : glm::vec3(shared::blade_albedo(look, id, field.along(i), 0));
+            return GrassHit{albedo, bent->tangent(i),
+                            std::min(1.0, field.centre(i).y / field.canopy()), field.along(i), 0};
+        }};
     };
     return canopy;
 }

@@ -178,9 +178,11 @@ Volume seam_volume(const Volume& volume, const SeamCut& cut, const std::filesyst
     out.voxel_m = volume.voxel_m;
     out.cells = seam.size;
     out.period_m = kept * volume.voxel_m;
+    out.canopy_m = volume.canopy_m;
     out.preset = volume.preset;
     out.set_seed = volume.set_seed;
     out.format_version = volume.format_version;
+    out.light = volume.light;
     const auto pick = [&](const auto& from, auto& to) {
         if (from.empty())
             return;

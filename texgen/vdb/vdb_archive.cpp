@@ -13,6 +13,7 @@
 #include "base/hash.h"
 #include "texgen/vdb/vdb_file.h"
 #include "texgen/vdb/vdb_grid.h"
+#include "texgen/vdb/volume_light.h"
 
 namespace sward::texgen {
 namespace {
@@ -50,9 +51,14 @@ void label(openvdb::GridBase& grid, const Volume& volume) {
     grid.setSaveFloatAsHalf(true);
     grid.setCreator("Sward texgen");
     grid.insertMeta(kPeriodKey, openvdb::FloatMetadata(static_cast<float>(volume.period_m)));
+    if (volume.canopy_m > 0)
+        grid.insertMeta(kCanopyKey, openvdb::FloatMetadata(static_cast<float>(volume.canopy_m)));
     grid.insertMeta("preset", openvdb::StringMetadata(volume.preset));
     grid.insertMeta("seed", openvdb::Int64Metadata(static_cast<std::int64_t>(volume.set_seed)));
     grid.insertMeta("format_version", openvdb::Int32Metadata(volume.format_version));
+    grid.insertMeta(kLightVersionKey, openvdb::Int32Metadata(kLightVersion));
+    for (const auto& [key, value] : light_terms(volume.light))
+        grid.insertMeta(key, openvdb::FloatMetadata(value));
 }
 
 openvdb::GridBase::Ptr scalar_grid(const char* name, const Volume& volume,

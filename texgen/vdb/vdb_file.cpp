@@ -14,6 +14,7 @@
 #include "base/log.h"
 #include "texgen/vdb/vdb_reader.h"
 #include "texgen/vdb/vdb_writer.h"
+#include "texgen/vdb/volume_light.h"
 
 namespace sward::texgen {
 namespace {
@@ -164,6 +165,12 @@ private:
         float period_m = 0;
         if (grid.read_meta(kPeriodKey, "float", period_m))
             out_.period_m = static_cast<double>(period_m) * query_.scale;
+        // Light fades from the canopy's top down: half a voxel is 3 % of it in a lawn. What is not
+        // of this box says nothing.
+        float canopy_m = 0;
+        if (grid.read_meta(kCanopyKey, "float", canopy_m) &&
+            std::abs(canopy_m * query_.scale / out_.voxel_m - out_.cells.y) < 1)
+            out_.canopy_m = canopy_m * query_.scale;
         std::int32_t version = 0;
         if (grid.read_meta("format_version", "int32", version))
             out_.format_version = version;
@@ -172,6 +179,7 @@ private:
             out_.set_seed = static_cast<std::uint64_t>(seed);
         if (out_.format_version > 0)
             out_.preset = grid.text_meta("preset").substr(0, 64);
+        out_.light = read_light(reader_, grid);
         if (query_.period_m > 0)
             out_.period_m = query_.period_m;
         set_period();

@@ -27,6 +27,7 @@ struct VdbGridInfo {
 };
 
 inline constexpr const char* kPeriodKey = "period_m"; ///< metadata of a grid, in its units
+inline constexpr const char* kCanopyKey = "canopy_m"; ///< likewise
 
 /// The bytes of an OpenVDB file; by its first ones before the rest is read. Throws base::Error:
 /// kIo, kBadInput, kOverLimit.

@@ -105,6 +105,31 @@ private:
     std::vector<Deposit> own_;
 };
 
+/// The mean of the terms of light, by area and height.
+Species mean_light(const grass::GrassSet& set, const std::vector<Deposit>& deposits) {
+    std::vector<double> weights(set.species.size());
+    double whole = 0;
+    for (const Deposit& d : deposits) {
+        const double weight =
+            static_cast<double>(d.area) * (static_cast<double>(d.voxel >> 32) + 0.5);
+        weights[species_of(set.blades[d.blade])] += weight;
+        whole += weight;
+    }
+    if (!(whole > 0))
+        return {};
+    Species mean{.kd = 0, .pd = 0, .ks = 0, .ps = 0, .translucency = 0};
+    for (std::size_t s = 0; s < weights.size(); ++s) {
+        const shared::GrassAppearance& look = set.species[s].look;
+        const double share = weights[s] / whole;
+        mean.kd += share * static_cast<double>(look.gloss.diffuse);
+        mean.pd += share * static_cast<double>(look.gloss.diffuse_power);
+        mean.ks += share * static_cast<double>(look.gloss.specular);
+        mean.ps += share * static_cast<double>(look.gloss.specular_power);
+        mean.translucency += share * static_cast<double>(look.translucency);
+    }
+    return mean;
+}
+
 /// Sorted deposits to voxels.
 void gather(const grass::GrassSet& set, const std::vector<Deposit>& deposits, Volume& out) {
     const auto face = static_cast<float>(out.voxel_m * out.voxel_m);
@@ -154,6 +179,7 @@ Volume rasterise_volume(const grass::GrassSet& set) {
     out.voxel_m = static_cast<double>(set.side_m) / cells;
     out.cells = {cells, 0, cells};
     out.period_m = set.side_m;
+    out.canopy_m = static_cast<double>(set.canopy_m);
     out.preset = set.name;
     out.set_seed = set.seed;
     out.format_version = grass::kSetFormatVersion;
@@ -164,6 +190,7 @@ Volume rasterise_volume(const grass::GrassSet& set) {
         sampler.add(Surface(set, blades[b]), blades[b].shape.y, b, deposits);
     std::sort(deposits.begin(), deposits.end());
     gather(set, deposits, out);
+    out.light = mean_light(set, deposits);
     return out;
 }
 

@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 
 #include "grass/grass_set.h"
+#include "texgen/preset/preset.h"
 
 namespace sward::texgen {
 
@@ -32,9 +33,14 @@ struct Volume {
     std::vector<float> others; ///< what of `density` belongs to other blades than the companions'
 
     double period_m = 0; ///< of the tiling, from the file's metadata; 0: it says none
+    double canopy_m = 0; ///< likewise the canopy's top, about the top of the box; 0: that is it
     std::string preset;  ///< name of the set it was made for; empty: not ours
     std::uint64_t set_seed = 0;
     int format_version = 0;
+    /// Its terms of light alone count: of the file's metadata, else plain meadow grass's. One for
+    /// all voxels: the mean of a set's species by their area, the higher it stands the more, as the
+    /// march's.
+    Species light;
 };
 
 /// Variant 0 of a set as a volume (G1): every blade's curved, tapered surface cut into small pieces

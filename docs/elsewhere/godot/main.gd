@@ -17,15 +17,24 @@ void fragment() {
 }
 """
 
+# Godot works in its project's folder: what the user named lies where the user stood.
+func place_of(path):
+	return path if path.is_abs_path() else OS.get_environment("PWD") + "/" + path
+
 func read_json(path):
 	var file = File.new()
-	file.open(path, File.READ)
+	if file.open(path, File.READ) != OK:
+		print("error: ", path, ": cannot read: expected what texgen export --for textures writes")
+		return null
 	return JSON.parse(file.get_as_text()).result
 
 func _ready():
 	var arguments = OS.get_cmdline_args()
-	var folder = arguments[-2]
+	var folder = place_of(arguments[-2])
 	var stack = read_json(folder + "/stack.json")
+	if stack == null:
+		get_tree().quit(1)
+		return
 	var image = Image.new()
 	image.load(folder + "/" + stack["arrays"]["layers"]["atlases"][0]["albedo"][1])
 	var atlas = ImageTexture.new()
@@ -67,5 +76,5 @@ func _ready():
 	yield(VisualServer, "frame_post_draw")
 	var picture = get_viewport().get_texture().get_data()
 	picture.flip_y()
-	print(Engine.get_version_info()["string"], " ", stack["images"].size(), " images, saved: ", picture.save_png(arguments[-1]))
+	print(Engine.get_version_info()["string"], " ", stack["images"].size(), " images, saved: ", picture.save_png(place_of(arguments[-1])))
 	get_tree().quit()
