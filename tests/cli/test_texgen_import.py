@@ -192,8 +192,8 @@ class Import(ImportCase):
                 self.assertAlmostEqual(found, wanted, delta=0.01)
 
     def test_own_volume_covers_and_colours_as_its_set(self):
-        """Within a point and 2 %, at every elevation and in the mean over them, where blades share
-        voxels, a few are of another colour, and none shines as plain grass does."""
+        """Within a point and 2 %, at every elevation and in the mean over them, with shared voxels,
+        a few blades of another colour, and none that shines as plain grass does."""
         preset = sward_cli.TINY_PRESET.replace(
             "density_per_m2 = 300.0", "density_per_m2 = 1500.0"
         ).replace("size = 64", "size = 128")
@@ -205,8 +205,7 @@ class Import(ImportCase):
             ("translucency = 0.35", "translucency = 0.2"),
         ):
             preset = preset.replace(tiny, fur)  # far from plain grass's
-        preset += "[[species]]\nname = 'green'\nshare = 5\n[[species]]\nname = 'red'\nshare = 1\n[species.colour]\nroot = [0.5, 0.02, 0.02]\n"
-        preset += "tip = [0.7, 0.03, 0.02]\n"
+        preset += "[[species]]\nname = 'green'\nshare = 5\n[[species]]\nname = 'red'\nshare = 1\n[species.colour]\nroot = [0.5, 0.02, 0.02]\ntip = [0.7, 0.03, 0.02]\n"
         (self.dir / "two.toml").write_text(preset)
         few = ("--layers", "2", "--slices", "2", "--levels", "1", *FAST)
         self.assert_done(self.texgen("two.toml", "-o", "own", *few, timeout=600))
