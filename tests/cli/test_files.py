@@ -326,11 +326,11 @@ class Messages(CliCase):
             self.refuse(
                 3, ["scene.toml:", f"unknown key: found {name}, expected"], "info", "scene.toml"
             )
-        for text in ('"" = 1\n', '[blade]\n"" = 1\n'):
+        for text, name in (('"" = 1\n', '""'), ('[blade]\n"" = 1\n', 'blade.""')):
             (self.dir / "p.toml").write_text(text)
             self.refuse(
                 3,
-                ["p.toml:", 'unknown key: found "", expected'],
+                ["p.toml:", f"unknown key: found {name}, expected"],
                 "p.toml",
                 "--dry-run",
                 program="texgen",
