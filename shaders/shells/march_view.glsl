@@ -110,6 +110,8 @@ Entry entry_of(View view, ivec2 pixel) {
 // one, now the other. Where a pixel is higher than the canopy, whose fringe is then no more to be
 // seen.
 const float kCrestMean = 4.0 / 3.0; // mean of 2 sqrt(h) over h from 0 to 1
+const float kCrestReach = 4.0;      // pixels: no nearer is the ground's curvature looked for, where
+                                    // the slopes of vertices and posts differ by more
 const float kCrestCurve = 1e-9;     // of the mean (1/m): none, and a mark
 vec2 crest_mean(vec2 slope_curve, float pixel) {
     float fringe = smoothstep(0.5, 1.5, pixel / frame.canopy_m);
@@ -146,10 +148,12 @@ MarchPath path_of(View view, Entry entry) {
     path.height =
         vec4(height, fall, 0.0, 1.5 * reach + 0.1 * canopy); // beyond, the ground is another one
     if (reach > kLowPath * canopy) { // low over the ground: it curves under the ray
-        vec2 ahead = at.xz + reach * view.way.xz;
+        float pixel = entry.distance / frame.focal_px;
+        float far = max(reach, kCrestReach * pixel);
+        vec2 ahead = at.xz + far * view.way.xz;
         float rise = ground_at(ahead) - ground_at(at.xz) - dot(entry.ground.xy, ahead - at.xz);
-        path.height.z = -rise / (reach * reach * lying);
-        path.height.yz = crest_mean(path.height.yz, entry.distance / frame.focal_px);
+        path.height.z = -rise / (far * far * lying);
+        path.height.yz = crest_mean(path.height.yz, pixel);
     }
     return path;
 }
