@@ -315,7 +315,11 @@ void Wind::settle(double time_s) {
         next_ = std::make_unique<AmbientTile>(
             spec_, *ambient_, static_cast<std::int64_t>(start / AmbientTile::kStep_s));
     }
-    for (int i = 0; next_ && i < kCatchUp && next_->tag().latest < now; ++i) {
+    // One more than fall due: it overtakes, and no frame bears several of the first steps, which
+    // are up to eight times as long (Fluid::iterations).
+    const std::int64_t due =
+        steps_for(time_s, AmbientTile::kStep_s) - steps_for(time_s_, AmbientTile::kStep_s);
+    for (std::int64_t i = 0; next_ && i <= due && next_->tag().latest < now; ++i) {
         next_->step();
     }
     if (change_ == Change::kBlows && next_ && next_->tag().latest >= now) {

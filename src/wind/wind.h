@@ -41,9 +41,9 @@ public:
     /// Another mean wind, from the present time on: the air's speed is the new one at once, the
     /// gusts that are under way are carried on with it and grow or weaken. Once it has not changed
     /// for kSettled_s, the gusts that a scene with this wind would have by now are made up for on
-    /// the side, kCatchUp steps a call of advance(), and take the place of the old ones while these
-    /// fade. What then blows is bit for bit what a scene blows that began so, but for the local
-    /// window, in which the past dies away.
+    /// the side, a step more a call of advance() than fall due in it, and take the place of the old
+    /// ones while these fade. What then blows is bit for bit what a scene blows that began so, but
+    /// for the local window, in which the past dies away.
     void set_mean(const MeanWind& wind);
     /// Whether what blows is what a scene that began with the present mean wind blows.
     [[nodiscard]] bool settled() const { return change_ == Change::kNone; }
@@ -77,8 +77,6 @@ public:
     /// That a window goes on when nothing is local any more: what was stirred dies away, and in the
     /// last second the window fades.
     static constexpr double kLinger_s = 5;
-    static constexpr int kCatchUp =
-        4; ///< steps of the new gusts in a call; each costs about as one of the old
 
 private:
     void restart(double time_s);
