@@ -56,10 +56,10 @@ constexpr NumberRange kIndex{0, 4294967295.0, ""};
 constexpr NumberRange kEvery{1e-3, 1e6, "seconds"};
 constexpr NumberRange kExitAfter{1, 1'000'000, ""};
 
-void declare_path(CLI::App& app, const std::string& name, const std::string& value,
-                  const std::string& help, std::filesystem::path* path) {
+CLI::Option* declare_path(CLI::App& app, const std::string& name, const std::string& value,
+                          const std::string& help, std::filesystem::path* path) {
     const std::string shown = name.substr(name.rfind(',') + 1);
-    declare(app, name, value, help, [=](const std::string& text) {
+    return declare(app, name, value, help, [=](const std::string& text) {
         if (text.empty() || text.find('\0') != std::string::npos)
             throw option_error(shown, text, "the name of a file");
         if (text.front() == '-') // an option that stands where the name was forgotten
@@ -196,28 +196,25 @@ void declare_render(CLI::App& app, Options* o) {
             throw option_error("--path", text, "a path of the scene");
         o->path = text;
     })->excludes("--camera");
-    declare(app, "--camera-matrices", "FILE",
-            "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], "
-            "\"clip_from_view\": [16]}",
-            [=](const std::string& text) {
-                if (text.empty() || text.find('\0') != std::string::npos)
-                    throw option_error("--camera-matrices", text, "the name of a file");
-                o->camera_matrices = text;
-            })
+    declare_path(app, "--camera-matrices", "FILE",
+                 "a camera as two matrices, JSON: {\"view_from_world\": [16 numbers, row by row], "
+                 "\"clip_from_view\": [16]}",
+                 &o->camera_matrices)
         ->excludes("--camera")
         ->excludes("--path");
     declare_path(app, "--replay", "FILE",
                  "the camera, the sun and the wind of a flight that `sward view --record` wrote; "
                  "without --frames the whole of it",
-                 &o->replay);
-    app.get_option("--replay")
+                 &o->replay)
         ->excludes("--camera")
         ->excludes("--path")
         ->excludes("--camera-matrices");
     declare_path(app, "--channels", "FILE",
                  "several pictures of every moment, as FILE lists them: OUT-NAME.png for each",
-                 &o->channels);
-    app.get_option("--channels")->excludes("--size")->excludes("--stats")->excludes("--format");
+                 &o->channels)
+        ->excludes("--size")
+        ->excludes("--stats")
+        ->excludes("--format");
     declare(app, "--frames", "FIRST:LAST",
             "a sequence, both ends included; frame i is drawn at "
             "--time + i * --fixed-timestep",
@@ -266,9 +263,9 @@ void declare_view(CLI::App& app, Options* o) {
         ->excludes("--camera")
         ->excludes("--native-fdm");
     declare_path(app, "--channels", "FILE",
-                 "several pictures of every moment in one window, as FILE lists them",
-                 &o->channels);
-    app.get_option("--channels")->excludes("--size")->excludes("--window");
+                 "several pictures of every moment in one window, as FILE lists them", &o->channels)
+        ->excludes("--size")
+        ->excludes("--window");
     declare_models(app, o);
     declare_test_options(app, o);
     declare(app, "--frames", "N", "", [=](const std::string& text) {

@@ -19,26 +19,24 @@ constexpr std::array<std::pair<std::string_view, drive::Surface>, drive::kSurfac
      {"soil", drive::Surface::kSoil},
      {"sand", drive::Surface::kSand}}};
 
+/// What is shipped, or a file; `kinds` says so.
+CLI::Option* declare_model(CLI::App& app, const std::string& name, const std::string& value,
+                           const std::string& kinds, std::string* model) {
+    return declare(app, name, value, kinds + ": the keyboard steers it",
+                   [=](const std::string& text) {
+                       if (text.empty() || text.find('\0') != std::string::npos)
+                           throw option_error(name, text, kinds);
+                       *model = text;
+                   })
+        ->excludes("--replay")
+        ->excludes("--native-fdm");
+}
+
 } // namespace
 
 void declare_models(CLI::App& app, Options* o) {
-    declare(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file: the keyboard drives it",
-            [=](const std::string& text) {
-                if (text.empty() || text.find('\0') != std::string::npos)
-                    throw option_error("--drive", text, "car, tractor or a vehicle's file");
-                o->drive = text;
-            })
-        ->excludes("--replay")
-        ->excludes("--native-fdm");
-    declare(app, "--fly", "AIRCRAFT",
-            "trainer, helicopter or an aircraft's file: the keyboard flies it",
-            [=](const std::string& text) {
-                if (text.empty() || text.find('\0') != std::string::npos)
-                    throw option_error("--fly", text, "trainer, helicopter or an aircraft's file");
-                o->fly = text;
-            })
-        ->excludes("--replay")
-        ->excludes("--native-fdm")
+    declare_model(app, "--drive", "VEHICLE", "car, tractor or a vehicle's file", &o->drive);
+    declare_model(app, "--fly", "AIRCRAFT", "trainer, helicopter or an aircraft's file", &o->fly)
         ->excludes("--drive");
     declare(
         app, "--tyres-on", "grass|wet|road|soil|sand",

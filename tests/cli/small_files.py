@@ -45,8 +45,14 @@ MATRICES = json.dumps(
 ).encode()
 
 
-def triangle():
-    """A mesh of one triangle as .glb."""
+def glb(positions, triangles):
+    """A mesh without normals as glTF binary."""
+    corners = b"".join(struct.pack("<3f", *p) for p in positions)
+    indices = b"".join(struct.pack("<3I", *t) for t in triangles)
+    place = {"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"}
+    place |= {"min": [min(axis) for axis in zip(*positions)]}
+    place |= {"max": [max(axis) for axis in zip(*positions)]}
+    index = {"bufferView": 1, "componentType": 5125, "count": 3 * len(triangles), "type": "SCALAR"}
     text = json.dumps(
         {
             "asset": {"version": "2.0"},
@@ -54,30 +60,23 @@ def triangle():
             "scene": 0,
             "nodes": [{"mesh": 0}],
             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-            "accessors": [
-                {
-                    "bufferView": 0,
-                    "componentType": 5126,
-                    "count": 3,
-                    "type": "VEC3",
-                    "min": [0, 0, 0],
-                    "max": [1, 1, 1],
-                },
-                {"bufferView": 1, "componentType": 5123, "count": 3, "type": "SCALAR"},
-            ],
+            "accessors": [place, index],
             "bufferViews": [
-                {"buffer": 0, "byteLength": 36},
-                {"buffer": 0, "byteOffset": 36, "byteLength": 6},
+                {"buffer": 0, "byteOffset": 0, "byteLength": len(corners)},
+                {"buffer": 0, "byteOffset": len(corners), "byteLength": len(indices)},
             ],
-            "buffers": [{"byteLength": 44}],
+            "buffers": [{"byteLength": len(corners) + len(indices)}],
         }
     ).encode()
     text += b" " * (-len(text) % 4)
-    data = struct.pack("<9f3H2x", 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 2)
-    chunks = (
-        struct.pack("<II", len(text), 0x4E4F534A)
+    body = corners + indices
+    return (
+        struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body))
+        + struct.pack("<2I", len(text), 0x4E4F534A)
         + text
-        + struct.pack("<II", len(data), 0x004E4942)
-        + data
+        + struct.pack("<2I", len(body), 0x004E4942)
+        + body
     )
-    return struct.pack("<III", 0x46546C67, 2, 12 + len(chunks)) + chunks
+
+
+TRIANGLE = glb([(0, 0, 0), (1, 0, 0), (0, 1, 1)], [(0, 1, 2)])

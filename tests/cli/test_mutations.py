@@ -19,7 +19,7 @@ import OpenEXR
 import sward_cli
 from geopackage import geopackage
 from geotiff import geotiff
-from small_files import CHANNELS, CONTROLS, ENDLESS, MATRICES, RECORD, triangle
+from small_files import CHANNELS, CONTROLS, ENDLESS, MATRICES, RECORD, TRIANGLE
 from sward_cli import CliCase, TINY_PRESET
 from test_files import png
 import test_texgen_import
@@ -163,7 +163,7 @@ class Mutations(CliCase):
         )
         self.each(
             "m.glb",
-            triangle(),
+            TRIANGLE,
             (
                 "sward",
                 "render",

@@ -2,10 +2,8 @@
 """Scenes on a mesh and objects as a user meets them: what is refused, what is kept, what may be
 left out."""
 
-import json
-import struct
-
 import sward_cli
+from small_files import glb
 from sward_cli import CliCase, SIZE, environment
 
 SCENE = """\
@@ -24,44 +22,6 @@ mesh = "box.glb"
 position = [0, 0, 0]
 most_spheres = 20
 """
-
-
-def glb(path, positions, triangles):
-    """A mesh without normals as glTF binary."""
-    corners = b"".join(struct.pack("<3f", *p) for p in positions)
-    indices = b"".join(struct.pack("<3I", *t) for t in triangles)
-    text = json.dumps(
-        {
-            "asset": {"version": "2.0"},
-            "scenes": [{"nodes": [0]}],
-            "scene": 0,
-            "nodes": [{"mesh": 0}],
-            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
-            "accessors": [
-                {"bufferView": 0, "componentType": 5126, "count": len(positions), "type": "VEC3"},
-                {
-                    "bufferView": 1,
-                    "componentType": 5125,
-                    "count": 3 * len(triangles),
-                    "type": "SCALAR",
-                },
-            ],
-            "bufferViews": [
-                {"buffer": 0, "byteOffset": 0, "byteLength": len(corners)},
-                {"buffer": 0, "byteOffset": len(corners), "byteLength": len(indices)},
-            ],
-            "buffers": [{"byteLength": len(corners) + len(indices)}],
-        }
-    ).encode()
-    text += b" " * (-len(text) % 4)
-    body = corners + indices
-    path.write_bytes(
-        struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(body))
-        + struct.pack("<2I", len(text), 0x4E4F534A)
-        + text
-        + struct.pack("<2I", len(body), 0x004E4942)
-        + body
-    )
 
 
 SHEET = ([(-1, 0, -1), (-1, 0, 1), (1, 0, 1), (1, 0, -1)], [(0, 1, 2), (0, 2, 3)])
@@ -87,8 +47,8 @@ class Surface(CliCase):
         super().setUp()
         sward_cli.WORK.mkdir(parents=True, exist_ok=True)
         self.scene(SCENE)
-        glb(self.dir / "m.glb", *SHEET)
-        glb(self.dir / "box.glb", *BOX)
+        (self.dir / "m.glb").write_bytes(glb(*SHEET))
+        (self.dir / "box.glb").write_bytes(glb(*BOX))
         self.cache = self.dir / "cache"
         # The driver's own cache is shared: compiling shaders anew costs more than all else here.
         self.env = environment(XDG_CACHE_HOME=self.cache)
@@ -113,11 +73,13 @@ class Surface(CliCase):
             (SHEET[0], [(0, 1, 9)], ["m.glb", "9"]),
             (SHEET[0], [], ["m.glb"]),
         ):
-            glb(self.dir / "m.glb", positions, triangles)
+            (self.dir / "m.glb").write_bytes(glb(positions, triangles))
             self.refuse_scene(3, pieces)
 
     def test_too_many_blades(self):
-        glb(self.dir / "m.glb", [(20 * x, y, 20 * z) for x, y, z in SHEET[0]], SHEET[1])
+        (self.dir / "m.glb").write_bytes(
+            glb([(20 * x, y, 20 * z) for x, y, z in SHEET[0]], SHEET[1])
+        )
         self.refuse_scene(
             4,
             ["m.glb", "1440000000 blades", "at most 10000000"],
@@ -125,7 +87,7 @@ class Surface(CliCase):
         )
 
     def test_too_steep(self):
-        glb(self.dir / "m.glb", [(x, z, 0) for x, _, z in SHEET[0]], SHEET[1])
+        (self.dir / "m.glb").write_bytes(glb([(x, z, 0) for x, _, z in SHEET[0]], SHEET[1]))
         self.refuse_scene(
             3,
             ["m.glb", "no area that leans at most 10 degrees"],
@@ -157,7 +119,7 @@ class Surface(CliCase):
         self.assertIn("warning: the spheres of a mesh are not kept", result.err)
 
     def test_an_open_object_is_for_show_alone(self):
-        glb(self.dir / "box.glb", *SHEET)
+        (self.dir / "box.glb").write_bytes(glb(*SHEET))
         self.refuse_scene(3, ["box.glb", "a rim", "object.collides = false"], SCENE + OBJECT)
         self.scene(SCENE + OBJECT + "collides = false\n")
         self.assert_done(self.render("-o", "a.png", "--camera", "near", env=self.env))

@@ -62,7 +62,6 @@ OVER = {
     "src/app/arrow_panel.cpp:draw_point()": 6,
     "src/app/arrow_panel.cpp:edit_number()": 6,
     "src/app/flow_overlay.cpp:draw_streak()": 6,
-    "src/app/options.cpp": 403,
     "src/app/options.cpp:declare_render": 68,
     "src/assets/image_file.cpp:check_size()": 7,
     "src/base/error.cpp:input_error()": 6,
